@@ -1,0 +1,63 @@
+/* The tile that is being drawn, and the innermost loops: pixels first ... first + count - 1 of one row, depth tested.
+ *
+ * Depth is Q16.16 with the rounding half added; only its upper half is compared and kept. A face wins a pixel when it is nearer than
+ * what is there; on a tie the first one stays, or with `last` the later one takes over.
+ */
+#ifndef TUILE_FILL_SPAN_H
+#define TUILE_FILL_SPAN_H
+
+#include "../fixed.h"
+
+#include <stddef.h>
+
+typedef struct raster_tile {
+    uint16_t *depth; /* stride_px * height */
+    void *colour;    /* the same number of pixels, 2 or 4 bytes each */
+    int32_t left, top, right, bottom; /* pixels of the window: left ... right - 1 */
+    int32_t stride_px;
+} raster_tile_t;
+
+typedef enum span_kind { SPAN_FLAT, SPAN_GOURAUD, SPAN_IDS } span_kind_t;
+
+TUILE_INLINE bool span_wins(uint32_t depth, uint16_t stored, bool last) { return last ? depth >= stored : depth > stored; }
+
+TUILE_INLINE void span_flat(uint16_t *depth, uint16_t *colour, int32_t count, uint32_t z, uint32_t dz, uint16_t value, bool last) {
+    do {
+        if (span_wins(z >> 16, *depth, last)) {
+            *depth = (uint16_t)(z >> 16);
+            *colour = value;
+        }
+        z += dz;
+        depth++;
+        colour++;
+    } while (--count);
+}
+
+/* light: Q8.16, always within 0 ... 255.99; ramp: 64 colours. */
+TUILE_INLINE void span_gouraud(uint16_t *depth, uint16_t *colour, int32_t count, uint32_t z, uint32_t dz, uint32_t light,
+                               uint32_t dlight, const uint16_t *ramp, bool last) {
+    do {
+        if (span_wins(z >> 16, *depth, last)) {
+            *depth = (uint16_t)(z >> 16);
+            *colour = ramp[light >> 18];
+        }
+        z += dz;
+        light += dlight;
+        depth++;
+        colour++;
+    } while (--count);
+}
+
+TUILE_INLINE void span_ids(uint16_t *depth, uint32_t *ids, int32_t count, uint32_t z, uint32_t dz, uint32_t id, bool last) {
+    do {
+        if (span_wins(z >> 16, *depth, last)) {
+            *depth = (uint16_t)(z >> 16);
+            *ids = id;
+        }
+        z += dz;
+        depth++;
+        ids++;
+    } while (--count);
+}
+
+#endif

@@ -1,0 +1,337 @@
+/* From clusters to records: vertex stage, culling, clipping, and the bucket of the tile row where each face starts. */
+#include "frame.h"
+
+enum { BIN_OK = 0, BIN_FULL = 1 };
+
+typedef struct cluster {
+    const uint8_t *bytes; /* in the model's table */
+    const uint8_t *faces;
+    const int16_t *positions;
+    const int8_t *face_normals;
+    vertex_t *vertices;
+    uint32_t first_face; /* id - 1 of its first face */
+} cluster_t;
+
+/* Twice the signed area in (1/16 px)^2, positive for counter-clockwise as seen (the window's y points down). Inside the guard
+ * band differences are below 2^15, so the products are below 2^30. */
+TUILE_INLINE int32_t signed_area(const vertex_t *a, const vertex_t *b, const vertex_t *c) {
+    const int32_t x1 = b->x - a->x, y1 = b->y - a->y, x2 = c->x - a->x, y2 = c->y - a->y;
+    return x2 * y1 - x1 * y2;
+}
+
+/* A slot for one record, NULL when the arena is full. */
+TUILE_INLINE record_t *record_claim(tuile_t *t) {
+    record_t *record = frame_record(t, t->record_count);
+    if (TUILE_UNLIKELY((uint8_t *)record < (uint8_t *)(t->vertices + t->vertex_count) || t->record_count >= UINT16_MAX - 1)) { return NULL; }
+    return record;
+}
+
+/* Hangs the claimed record into the bucket of its first row, or draws it at once. */
+TUILE_INLINE void record_emit(tuile_t *t, record_t *record, int32_t row, uint32_t id) {
+    if (t->record_bytes == sizeof(record_id_t)) { ((record_id_t *)(void *)record)->id = id + 1; }
+    t->stats.faces_binned++;
+    if (TUILE_UNLIKELY(t->immediate)) {
+        zbuffer_draw_record(t, t->record_count);
+        return;
+    }
+    if (row < t->region.top) { row = t->region.top; }
+    uint16_t *bucket = &t->buckets[(uint32_t)row / t->config.tile_height];
+    record->next = *bucket;
+    *bucket = (uint16_t)++t->record_count;
+}
+
+/* The face covers a pixel centre's row and column of the region, as far as its bounding box tells. */
+TUILE_INLINE bool box_in_region(const tuile_t *t, int32_t left, int32_t right, int32_t top, int32_t bottom) {
+    const int32_t row = edge_row(top), row_end = edge_row(bottom), column = edge_row(left), column_end = edge_row(right);
+    return row < row_end && column < column_end && row < t->region.bottom && row_end > t->region.top && column < t->region.right &&
+           column_end > t->region.left;
+}
+
+TUILE_INLINE int32_t least3(int32_t a, int32_t b, int32_t c) { return a < b ? (a < c ? a : c) : (b < c ? b : c); }
+TUILE_INLINE int32_t most3(int32_t a, int32_t b, int32_t c) { return a > b ? (a > c ? a : c) : (b > c ? b : c); }
+
+static uint8_t flat_light(const tuile_t *t, const int8_t *normal, bool back) {
+    const int32_t sign = back ? -1 : 1;
+    return vertex_light(&t->transform, sign * normal[0], sign * normal[1], sign * normal[2]);
+}
+
+/* One triangle, all corners in the window's guard band. */
+TUILE_INLINE int bin_triangle(tuile_t *t, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, uint8_t material,
+                              const int8_t *normal, uint32_t id) {
+    int32_t area = signed_area(v0, v1, v2);
+    bool back = false;
+    if (area <= 0) {
+        if (area == 0) {
+            t->stats.faces_degenerate++;
+            return BIN_OK;
+        }
+        if (!t->transform.two_sided) {
+            t->stats.faces_back++;
+            return BIN_OK;
+        }
+        const vertex_t *swap = v1;
+        v1 = v2;
+        v2 = swap;
+        back = true;
+    }
+    if (!box_in_region(t, least3(v0->x, v1->x, v2->x), most3(v0->x, v1->x, v2->x), least3(v0->y, v1->y, v2->y),
+                       most3(v0->y, v1->y, v2->y))) {
+        t->stats.faces_outside++;
+        return BIN_OK;
+    }
+    record_t *record = record_claim(t);
+    if (TUILE_UNLIKELY(record == NULL)) { return BIN_FULL; }
+    const vertex_t *top = v0, *next = v1, *last = v2;
+    if (v1->y < v0->y && v1->y <= v2->y) {
+        top = v1, next = v2, last = v0;
+    } else if (v2->y < v0->y && v2->y <= v1->y) {
+        top = v2, next = v0, last = v1;
+    }
+    record->v0 = (uint16_t)(top - t->vertices);
+    record->d1 = (int8_t)(next - top);
+    record->d2 = (int8_t)(last - top);
+    record->material = (uint8_t)(material + t->material_base);
+    record->light = normal ? flat_light(t, normal, back) : 0;
+    record_emit(t, record, edge_row(top->y), id);
+    return BIN_OK;
+}
+
+/* A polygon of more than three corners. listed: corners are relative to `base`; else they follow on one another from base. */
+static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *base, uint8_t material, const int8_t *normal, uint32_t id) {
+    int64_t area = 0;
+    int32_t left = INT32_MAX, right = INT32_MIN, top = INT32_MAX, bottom = INT32_MIN;
+    const vertex_t *v0 = &ring->vertices[ring->corners ? ring->corners[0] : 0];
+    for (uint32_t i = 0; i < ring->count; i++) {
+        const uint32_t j = i + 1 == ring->count ? 0 : i + 1;
+        const vertex_t *a = &ring->vertices[ring->corners ? ring->corners[i] : i], *b = &ring->vertices[ring->corners ? ring->corners[j] : j];
+        area += (int64_t)(b->x - v0->x) * (a->y - v0->y) - (int64_t)(a->x - v0->x) * (b->y - v0->y);
+        left = a->x < left ? a->x : left;
+        right = a->x > right ? a->x : right;
+        top = a->y < top ? a->y : top;
+        bottom = a->y > bottom ? a->y : bottom;
+    }
+    if (area < 0 && !t->transform.two_sided) {
+        t->stats.faces_back++;
+        return BIN_OK;
+    }
+    if (!box_in_region(t, left, right, top, bottom)) {
+        t->stats.faces_outside++;
+        return BIN_OK;
+    }
+    /* An area of 0 may still cover pixels (a bow tie), so only a box without area is degenerate, and that was dropped above. */
+    const uint32_t slots = 1 + (ring->corners ? (ring->count + 7) / 8 : 0);
+    if (t->vertex_count + slots > t->vertex_limit) { return BIN_FULL; }
+    polygon_slot_t *slot = (polygon_slot_t *)(void *)(t->vertices + t->vertex_count);
+    t->vertex_count += slots;
+    record_t *record = record_claim(t);
+    if (record == NULL) { return BIN_FULL; }
+    *slot = (polygon_slot_t){(uint16_t)ring->count, (uint16_t)(base - t->vertices), ring->corners != NULL, 0};
+    if (ring->corners) {
+        uint8_t *list = (uint8_t *)(slot + 1);
+        for (uint32_t i = 0; i < ring->count; i++) { list[i] = ring->corners[i]; }
+    }
+    *record = (record_t){0, (uint16_t)((vertex_t *)(void *)slot - t->vertices), 0, 0, (uint8_t)(material + t->material_base),
+                         normal ? flat_light(t, normal, area < 0) : (uint8_t)v0->depth_light};
+    record_emit(t, record, edge_row(top), id);
+    if (t->immediate) { t->vertex_count -= slots; }
+    return BIN_OK;
+}
+
+/* A face of which some corner is beyond near plane, far plane or guard band. */
+static TUILE_NOINLINE int bin_clipped(tuile_t *t, const cluster_t *cluster, const uint8_t *corners, unsigned count, uint8_t material,
+                                      const int8_t *normal, uint32_t id) {
+    const clip_face_t face = {cluster->positions, cluster->vertices, corners, count};
+    vertex_t *out = t->vertices + t->vertex_count;
+    const uint32_t mark = t->vertex_count;
+    const int left = clip_polygon(&t->transform, &face, out, t->vertex_limit - t->vertex_count);
+    int result = BIN_OK;
+
+    if (left < 0) { return BIN_FULL; }
+    t->stats.faces_clipped++;
+    if (left == 0) {
+        t->stats.faces_clipped_away++;
+        return BIN_OK;
+    }
+    t->vertex_count += (uint32_t)left;
+    const uint32_t binned = t->record_count;
+    bool lit_alike = true;
+    for (int i = 1; i < left; i++) { lit_alike &= (uint8_t)out[i].depth_light == (uint8_t)out[0].depth_light; }
+    if (left == 3) {
+        result = bin_triangle(t, &out[0], &out[1], &out[2], material, normal, id);
+    } else if (normal == NULL && !lit_alike && left <= 100) {
+        for (int i = 1; i + 1 < left && result == BIN_OK; i++) {
+            result = bin_triangle(t, &out[0], &out[i], &out[i + 1], material, NULL, id);
+        }
+    } else {
+        const polygon_ring_t ring = {out, NULL, NULL, (uint32_t)left};
+        result = bin_polygon(t, &ring, out, material, normal, id);
+    }
+    if (t->immediate || (result == BIN_OK && t->record_count == binned)) { t->vertex_count = mark; }
+    return result;
+}
+
+static int bin_triangles(tuile_t *t, const cluster_t *cluster, unsigned count) {
+    const uint8_t *face = cluster->faces;
+    const int8_t *normal = cluster->face_normals;
+    for (unsigned f = 0; f < count; f++, face += 4, normal += normal ? 3 : 0) {
+        const vertex_t *v0 = &cluster->vertices[face[0]], *v1 = &cluster->vertices[face[1]], *v2 = &cluster->vertices[face[2]];
+        int result;
+        if (TUILE_UNLIKELY(v0->x == VERTEX_OUTSIDE || v1->x == VERTEX_OUTSIDE || v2->x == VERTEX_OUTSIDE)) {
+            result = bin_clipped(t, cluster, face, 3, face[3], normal, cluster->first_face + f);
+        } else {
+            result = bin_triangle(t, v0, v1, v2, face[3], normal, cluster->first_face + f);
+        }
+        if (TUILE_UNLIKELY(result != BIN_OK)) { return result; }
+    }
+    return BIN_OK;
+}
+
+/* A triangle in a cluster whose vertices may lie too far apart for a record: it gets copies that stand together. */
+static int bin_far_triangle(tuile_t *t, const cluster_t *cluster, const uint8_t corners[3], uint8_t material, const int8_t *normal,
+                            uint32_t id) {
+    if (t->vertex_count + 3 > t->vertex_limit) { return BIN_FULL; }
+    vertex_t *v = t->vertices + t->vertex_count;
+    const uint32_t binned = t->record_count;
+    for (unsigned i = 0; i < 3; i++) { v[i] = cluster->vertices[corners[i]]; }
+    t->vertex_count += 3;
+    const int result = bin_triangle(t, &v[0], &v[1], &v[2], material, normal, id);
+    if (t->record_count == binned) { t->vertex_count -= 3; }
+    return result;
+}
+
+static int bin_polygons(tuile_t *t, const cluster_t *cluster, unsigned count) {
+    const bool far_apart = cluster->bytes[CLUSTER_AT_VERTEX_COUNT] > MODEL_TRIANGLE_CLUSTER_VERTICES;
+    const uint8_t *face = cluster->faces;
+    const int8_t *normal = cluster->face_normals;
+    for (unsigned f = 0; f < count; f++, normal += normal ? 3 : 0) {
+        const unsigned corners = face[0];
+        const uint8_t flags = face[1], material = face[2], *corner = face + 3;
+        const uint32_t id = cluster->first_face + f;
+        bool outside = false, lit_alike = true;
+        int result = BIN_OK;
+        for (unsigned i = 0; i < corners; i++) {
+            const vertex_t *v = &cluster->vertices[corner[i]];
+            outside |= v->x == VERTEX_OUTSIDE;
+            lit_alike &= (uint8_t)v->depth_light == (uint8_t)cluster->vertices[corner[0]].depth_light;
+        }
+        face += 3 + corners;
+        /* Gouraud: light is affine on a triangle only, so a smooth convex polygon is cut into a fan. */
+        const bool fan = normal == NULL && !lit_alike && flags & MODEL_FACE_CONVEX;
+        const unsigned parts = fan ? corners - 2 : 1;
+        for (unsigned p = 1; p <= parts && result == BIN_OK; p++) {
+            const uint8_t part[3] = {corner[0], corner[p], corner[p + 1]};
+            const vertex_t *v = cluster->vertices;
+            if (outside) {
+                result = bin_clipped(t, cluster, fan ? part : corner, fan ? 3 : corners, material, normal, id);
+            } else if (far_apart && (fan || corners == 3)) {
+                result = bin_far_triangle(t, cluster, part, material, normal, id);
+            } else if (fan || corners == 3) {
+                result = bin_triangle(t, &v[part[0]], &v[part[1]], &v[part[2]], material, normal, id);
+            } else {
+                const polygon_ring_t ring = {v, corner, NULL, corners};
+                result = bin_polygon(t, &ring, v, material, normal, id);
+            }
+        }
+        if (result != BIN_OK) { return result; }
+    }
+    return BIN_OK;
+}
+
+static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
+    const tuile_model_t *model = t->instance->model;
+    const unsigned vertices = bytes[CLUSTER_AT_VERTEX_COUNT], faces = model_u16(bytes + CLUSTER_AT_FACE_COUNT);
+    const uint32_t first_vertex = model_u32(bytes + CLUSTER_AT_FIRST_VERTEX), first_face = model_u32(bytes + CLUSTER_AT_FIRST_FACE);
+    const bool flat = t->config.shade == TUILE_FLAT;
+
+    t->stats.clusters++;
+    if (cull_outside(&t->transform, bytes)) {
+        t->stats.clusters_outside++;
+        return BIN_OK;
+    }
+    if (cull_faces_away(&t->transform, bytes)) {
+        t->stats.clusters_facing_away++;
+        return BIN_OK;
+    }
+    if (t->vertex_count + vertices > t->vertex_limit) { return BIN_FULL; }
+    const uint32_t mark = t->vertex_count, binned = t->record_count;
+    const cluster_t cluster = {
+        bytes,
+        model->faces + model_u32(bytes + CLUSTER_AT_FACE_BYTES),
+        (const int16_t *)(const void *)model->positions + 3 * (size_t)first_vertex,
+        flat ? (const int8_t *)model->face_normals + 3 * (size_t)first_face : NULL,
+        t->vertices + mark,
+        t->face_base + first_face,
+    };
+    vertex_stage(&t->transform, cluster.positions, flat ? NULL : (const int8_t *)model->normals + 3 * (size_t)first_vertex, vertices,
+                 cluster.vertices);
+    t->vertex_count += vertices;
+    t->stats.vertices += vertices;
+    t->stats.faces_tested += faces;
+    const int result = bytes[CLUSTER_AT_KIND] == MODEL_CLUSTER_TRIANGLES ? bin_triangles(t, &cluster, faces)
+                                                                          : bin_polygons(t, &cluster, faces);
+    if (t->record_count == binned) { t->vertex_count = mark; } /* none of its faces is left: nor need its vertices be */
+    return result;
+}
+
+int bin_pass(tuile_t *t) {
+    const tuile_scene_t *scene = t->scene;
+    t->stats.passes++;
+    t->vertex_count = t->record_count = 0;
+    for (uint32_t row = t->pass_first; row < t->pass_end; row++) { t->buckets[row] = RECORD_NONE; }
+    t->face_base = 0;
+    for (unsigned i = 0; i < scene->instance_count; i++) {
+        t->instance = &scene->instances[i];
+        const tuile_model_t *model = t->instance->model;
+        const int error = transform_make(&t->transform, scene, t->instance, t->config.width, t->config.height);
+        if (error) { return error; }
+        transform_region(&t->transform, &t->region);
+        t->material_base = 0;
+        for (unsigned j = 0; j < i && scene->instances[j].model != model; j++) {
+            unsigned earlier = 0;
+            while (scene->instances[earlier].model != scene->instances[j].model) { earlier++; }
+            if (earlier == j) { t->material_base = (uint16_t)(t->material_base + scene->instances[j].model->material_count); }
+        }
+        for (uint32_t k = 0; k < model->cluster_count; k++) {
+            const int result = bin_cluster(t, model->clusters + (size_t)k * MODEL_CLUSTER_BYTES);
+            if (result != BIN_OK) { return result; }
+        }
+        t->face_base += model->face_count;
+    }
+    return BIN_OK;
+}
+
+void bin_record_rows(const tuile_t *t, const record_t *record, int32_t *first, int32_t *end) {
+    const vertex_t *v0 = &t->vertices[record->v0];
+    int32_t top, bottom;
+    if (record->d1 != 0) {
+        const vertex_t *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+        top = v0->y;
+        bottom = v1->y > v2->y ? v1->y : v2->y;
+    } else {
+        const polygon_slot_t *slot = (const polygon_slot_t *)(const void *)v0;
+        const uint8_t *list = slot->listed ? (const uint8_t *)(slot + 1) : NULL;
+        top = INT32_MAX;
+        bottom = INT32_MIN;
+        for (unsigned i = 0; i < slot->count; i++) {
+            const int32_t y = t->vertices[slot->base + (list ? list[i] : i)].y;
+            top = y < top ? y : top;
+            bottom = y > bottom ? y : bottom;
+        }
+    }
+    *first = edge_row(top);
+    *end = edge_row(bottom);
+}
+
+void bin_again(tuile_t *t, uint16_t row) {
+    const int32_t top = row * t->config.tile_height;
+    for (uint32_t r = row; r < t->pass_end; r++) { t->buckets[r] = RECORD_NONE; }
+    for (uint32_t i = 0; i < t->record_count; i++) {
+        record_t *record = frame_record(t, i);
+        int32_t first, end;
+        bin_record_rows(t, record, &first, &end);
+        if (end <= top) { continue; }
+        uint16_t *bucket = &t->buckets[(uint32_t)(first < top ? top : first) / t->config.tile_height];
+        record->next = *bucket;
+        *bucket = (uint16_t)(i + 1);
+    }
+}

@@ -1,0 +1,302 @@
+/* A frame: the block laid out, passes over bands of the window, one tile after the other.
+ *
+ * A pass takes as many tile rows as its vertices and records find room for. It starts from what fitted last time; when the arena
+ * overflows the band is halved and tried again, down to one tile row. When even that does not fit, each tile of the row is drawn in a
+ * pass of its own in which faces are not kept but drawn as they come, which needs room for one cluster and one face only. Since depth,
+ * light and coverage of a face at a pixel do not depend on where a pass begins, and faces come in the same order, the picture is
+ * the same in all cases.
+ */
+#include "frame.h"
+
+#include <string.h>
+
+const char *tuile_error_text(int error) {
+    switch (error) {
+    case TUILE_OK: return "no error";
+    case TUILE_ERROR_ARGUMENT: return "an argument is out of range";
+    case TUILE_ERROR_MEMORY: return "the memory block is too small";
+    case TUILE_ERROR_MODEL: return "not a compiled model, or a damaged one";
+    case TUILE_ERROR_CAMERA: return "the camera is degenerate";
+    case TUILE_ERROR_RANGE: return "model, pose and camera leave the number range";
+    case TUILE_ERROR_SEQUENCE: return "called out of sequence";
+    default: return "unknown error";
+    }
+}
+
+/* ---- materials ---- */
+
+const uint8_t *frame_material(const tuile_t *t, uint32_t material) {
+    const tuile_scene_t *scene = t->scene;
+    for (unsigned i = 0; i < scene->instance_count; i++) {
+        const tuile_model_t *model = scene->instances[i].model;
+        unsigned earlier = 0;
+        while (scene->instances[earlier].model != model) { earlier++; }
+        if (earlier < i) { continue; } /* counted already */
+        if (material < model->material_count) { return model->materials + 4 * material; }
+        material -= model->material_count;
+    }
+    return scene->background;
+}
+
+const uint16_t *frame_ramp(tuile_t *t, uint32_t material) {
+    const uint32_t slot = material < t->ramp_count ? material : material % t->ramp_count;
+    uint16_t *ramp = t->ramps + slot * RAMP_COLOURS;
+    if (TUILE_UNLIKELY(t->ramp_tags[slot] != (int16_t)material)) {
+        const uint8_t *colour = frame_material(t, material);
+        for (uint32_t i = 0; i < RAMP_COLOURS; i++) { ramp[i] = resolve_lit(t->config.format, colour, (i * 255u + 31u) / 63u); }
+        t->ramp_tags[slot] = (int16_t)material;
+    }
+    return ramp;
+}
+
+/* ---- init ---- */
+
+/* Tile height that leaves about two thirds of the block to the arena. */
+static uint16_t default_tile_height(const tuile_config_t *c, size_t size_bytes) {
+    const size_t row_bytes = (size_t)c->tile_width * (2u + c->buffers * TUILE_FORMAT_BYTES(c->format));
+    size_t rows = size_bytes / 3u / row_bytes;
+    rows = rows > 24 ? 24 : rows < 1 ? 1 : rows;
+    return (uint16_t)(rows > c->height ? c->height : rows);
+}
+
+static bool config_complete(tuile_config_t *c, size_t size_bytes) {
+    if (c->width == 0 || c->height == 0 || c->width > TUILE_WINDOW_MAX_PX || c->height > TUILE_WINDOW_MAX_PX || c->buffers > 2 ||
+        c->format > TUILE_FACE_IDS || c->method > TUILE_ZBUFFER || c->shade > TUILE_GOURAUD || c->tie > TUILE_TIE_LAST ||
+        c->tile_width > TUILE_WINDOW_MAX_PX || c->tile_height > TUILE_WINDOW_MAX_PX || c->cluster_vertices > 255 ||
+        c->row_first > c->height || c->row_end > c->height || (c->row_end != 0 && c->row_end < c->row_first)) {
+        return false;
+    }
+    if (c->buffers == 0) { c->buffers = 2; }
+    if (c->tile_width == 0 || c->tile_width > c->width) { c->tile_width = c->width; }
+    if (c->tile_height == 0) { c->tile_height = default_tile_height(c, size_bytes); }
+    if (c->tile_height > c->height) { c->tile_height = c->height; }
+    if (c->cluster_vertices == 0) { c->cluster_vertices = 255; }
+    if (c->tile_step == 0) { c->tile_step = 1; }
+    if (c->row_end == 0) { c->row_end = c->height; }
+    return true;
+}
+
+int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, size_t size_bytes, size_t *wanted_bytes) {
+    if (renderer == NULL || config == NULL) { return TUILE_ERROR_ARGUMENT; }
+    tuile_config_t c = *config;
+    *renderer = NULL;
+    if (!config_complete(&c, size_bytes)) { return TUILE_ERROR_ARGUMENT; }
+    const size_t least =
+        TUILE_LEAST_BYTES((size_t)c.height, (size_t)c.tile_width, (size_t)c.tile_height, c.format, (size_t)c.buffers, (size_t)c.cluster_vertices);
+    if (wanted_bytes) { *wanted_bytes = least; }
+    if (block == NULL || size_bytes < least) { return TUILE_ERROR_MEMORY; }
+    if ((uintptr_t)block % 8 != 0 || size_bytes > UINT32_MAX) { return TUILE_ERROR_ARGUMENT; }
+
+    tuile_t *t = block;
+    uint8_t *at = (uint8_t *)block + TUILE_STATE_BYTES;
+    const size_t pixels = (size_t)c.tile_width * c.tile_height;
+    memset(t, 0, sizeof *t);
+    t->config = c;
+    t->stats.size_bytes = (uint32_t)size_bytes;
+    t->stats.least_bytes = (uint32_t)least;
+    t->tile_columns = (uint16_t)((c.width + c.tile_width - 1) / c.tile_width);
+    t->tile_rows = (uint16_t)((c.height + c.tile_height - 1) / c.tile_height);
+    t->tile_bytes = (uint32_t)(TUILE_FORMAT_BYTES(c.format) * pixels);
+    t->depth = (uint16_t *)(void *)at;
+    at += TUILE_ALIGN8(2u * pixels);
+    for (unsigned b = 0; b < c.buffers; b++) {
+        t->colours[b] = at;
+        at += TUILE_ALIGN8((size_t)t->tile_bytes);
+    }
+    t->buckets = (uint16_t *)(void *)at;
+    at += TUILE_ALIGN8(2u * (size_t)t->tile_rows);
+    t->arena = at;
+    t->arena_end = (uint8_t *)block + (size_bytes & ~(size_t)7u);
+    t->record_bytes = c.format == TUILE_FACE_IDS ? sizeof(record_id_t) : sizeof(record_t);
+    t->rows_hint = t->tile_rows;
+    t->span_kind = c.format == TUILE_FACE_IDS ? SPAN_IDS : c.shade == TUILE_GOURAUD ? SPAN_GOURAUD : SPAN_FLAT;
+    *renderer = t;
+    return TUILE_OK;
+}
+
+const tuile_config_t *tuile_config(const tuile_t *t) { return &t->config; }
+
+/* ---- begin ---- */
+
+static int check_scene(const tuile_t *t, const tuile_scene_t *scene, uint32_t *materials, uint32_t *faces) {
+    *materials = *faces = 0;
+    if (scene->instance_count != 0 && scene->instances == NULL) { return TUILE_ERROR_ARGUMENT; }
+    if (scene->light_count > TRANSFORM_LIGHTS_MAX || (scene->light_count != 0 && scene->lights == NULL)) { return TUILE_ERROR_ARGUMENT; }
+    for (unsigned i = 0; i < scene->instance_count; i++) {
+        const tuile_model_t *model = scene->instances[i].model;
+        unsigned earlier = 0;
+        if (model == NULL) { return TUILE_ERROR_ARGUMENT; }
+        if (model->cluster_vertices_max > t->config.cluster_vertices) { return TUILE_ERROR_MEMORY; }
+        while (scene->instances[earlier].model != model) { earlier++; }
+        if (earlier == i) { *materials += model->material_count; }
+        *faces += model->face_count;
+    }
+    return *materials > 256 ? TUILE_ERROR_ARGUMENT : TUILE_OK;
+}
+
+int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
+    uint32_t materials, faces;
+    if (t == NULL || scene == NULL) { return TUILE_ERROR_ARGUMENT; }
+    if (t->in_frame) { return TUILE_ERROR_SEQUENCE; }
+    const int error = check_scene(t, scene, &materials, &faces);
+    if (error) { return error; }
+
+    const uint32_t size = t->stats.size_bytes, least = t->stats.least_bytes;
+    memset(&t->stats, 0, sizeof t->stats);
+    t->stats.size_bytes = size;
+    t->stats.least_bytes = least;
+    t->stats.faces = faces;
+    t->scene = scene;
+    t->material_count = (uint16_t)materials;
+    t->background = resolve_colour(t->config.format, scene->background[0], scene->background[1], scene->background[2]);
+
+    /* One ramp is always there; the others may take an eighth of the arena. */
+    const size_t arena = (size_t)(t->arena_end - t->arena), ramp = RAMP_BYTES + sizeof(int16_t);
+    size_t ramps = t->span_kind != SPAN_GOURAUD ? 0 : materials;
+    if (ramps > 1 && ramps * ramp > arena / 8) { ramps = arena / 8 / ramp > 1 ? arena / 8 / ramp : 1; }
+    t->ramp_count = (uint16_t)ramps;
+    t->ramps = (uint16_t *)(void *)t->arena;
+    t->ramp_tags = (int16_t *)(void *)(t->arena + ramps * RAMP_BYTES);
+    for (size_t i = 0; i < ramps; i++) { t->ramp_tags[i] = -1; }
+    t->vertices = (vertex_t *)(void *)(t->arena + TUILE_ALIGN8(ramps * ramp));
+    const size_t slots = (size_t)(t->arena_end - (uint8_t *)t->vertices) / sizeof(vertex_t);
+    t->vertex_limit = (uint32_t)(slots > 65535 ? 65535 : slots);
+    t->pass_valid = false;
+    t->next_tile = t->config.tile_first;
+    t->in_frame = true;
+    return TUILE_OK;
+}
+
+/* ---- passes ---- */
+
+static void pass_set(tuile_t *t, uint32_t first, uint32_t end, uint32_t column, bool immediate) {
+    const tuile_config_t *c = &t->config;
+    t->pass_first = (uint16_t)first;
+    t->pass_end = (uint16_t)end;
+    t->immediate = immediate;
+    t->region.top = (uint16_t)(first * c->tile_height);
+    t->region.bottom = (uint16_t)(end * c->tile_height < c->height ? end * c->tile_height : c->height);
+    t->region.left = (uint16_t)(immediate ? column * c->tile_width : 0);
+    const uint32_t right = immediate ? (column + 1) * c->tile_width : c->width;
+    t->region.right = (uint16_t)(right < c->width ? right : c->width);
+}
+
+/* The block that would have held this pass. */
+static void pass_measure(tuile_t *t, size_t carried_bytes) {
+    const size_t used = (size_t)((uint8_t *)(t->vertices + t->vertex_count) - (uint8_t *)t) + carried_bytes +
+                        (size_t)t->record_count * t->record_bytes;
+    if (used > t->stats.peak_bytes) { t->stats.peak_bytes = (uint32_t)used; }
+}
+
+static void rows_restart(tuile_t *t, uint32_t row) {
+    t->row = (uint16_t)row;
+    t->row_ready = false;
+    t->states = (uint8_t *)(t->vertices + t->vertex_count);
+    t->stream = t->stream_end = t->states;
+    t->uncarried = RECORD_NONE;
+}
+
+/* A pass that begins at tile row `row`. */
+static int pass_begin(tuile_t *t, uint32_t row) {
+    const uint32_t end = (uint32_t)(t->config.row_end + t->config.tile_height - 1) / t->config.tile_height;
+    uint32_t rows = t->rows_hint;
+    if (rows > end - row) { rows = end > row ? end - row : 1; }
+    for (;;) {
+        pass_set(t, row, row + rows, 0, false);
+        const int result = bin_pass(t);
+        if (result < 0) { return result; }
+        if (result == 0) { break; }
+        if (rows == 1) {
+            t->rows_hint = 1;
+            t->immediate = true;
+            t->pass_valid = true;
+            return TUILE_OK;
+        }
+        rows /= 2;
+    }
+    pass_measure(t, 0);
+    /* What fitted with room to spare may be tried larger next time. */
+    const size_t total = (size_t)t->vertex_limit * sizeof(vertex_t);
+    const size_t used = t->vertex_count * sizeof(vertex_t) + (size_t)t->record_count * t->record_bytes;
+    t->rows_hint = (uint16_t)(used <= total / 2 ? (rows * 2 > t->tile_rows ? t->tile_rows : rows * 2) : rows);
+    t->pass_valid = true;
+    rows_restart(t, row);
+    return TUILE_OK;
+}
+
+/* ---- tiles ---- */
+
+static void tile_place(tuile_t *t, uint32_t row, uint32_t column) {
+    const tuile_config_t *c = &t->config;
+    t->tile.left = (int32_t)(column * c->tile_width);
+    t->tile.top = (int32_t)(row * c->tile_height);
+    t->tile.right = t->tile.left + c->tile_width < c->width ? t->tile.left + c->tile_width : c->width;
+    t->tile.bottom = t->tile.top + c->tile_height < c->height ? t->tile.top + c->tile_height : c->height;
+    t->tile.stride_px = t->tile.right - t->tile.left;
+    t->tile.depth = t->depth;
+    t->tile.colour = t->colours[t->next_buffer];
+}
+
+static int draw(tuile_t *t, uint32_t row, uint32_t column) {
+    int error = 0;
+    if (!t->pass_valid || row < t->pass_first || row >= t->pass_end) {
+        error = pass_begin(t, row);
+        if (error) { return error; }
+    }
+    zbuffer_clear(t);
+    if (t->immediate) {
+        pass_set(t, row, row + 1, column, true);
+        error = bin_pass(t);
+        t->stats.tiles_immediate++;
+        t->stats.peak_bytes = t->stats.size_bytes;
+        return error > 0 ? TUILE_ERROR_MEMORY : error;
+    }
+    if (row < t->row) {
+        bin_again(t, (uint16_t)row);
+        rows_restart(t, row);
+    }
+    zbuffer_draw_tile(t, (uint16_t)row, (uint16_t)column);
+    pass_measure(t, (size_t)(t->stream_end - t->stream));
+    return TUILE_OK;
+}
+
+int tuile_next(tuile_t *t, tuile_tile_t *tile) {
+    if (t == NULL || tile == NULL) { return TUILE_ERROR_ARGUMENT; }
+    if (!t->in_frame) { return TUILE_ERROR_SEQUENCE; }
+    for (;; t->next_tile += t->config.tile_step) {
+        const uint32_t row = t->next_tile / t->tile_columns, column = t->next_tile % t->tile_columns;
+        const uint32_t top = row * t->config.tile_height;
+        if (top >= t->config.row_end) { return 0; }
+        if (top < t->config.row_first) { continue; }
+
+        tile_place(t, row, column);
+        const int error = draw(t, row, column);
+        if (error) { return error; }
+        tile->x = (uint16_t)t->tile.left;
+        tile->y = (uint16_t)t->tile.top;
+        tile->width = (uint16_t)(t->tile.right - t->tile.left);
+        tile->height = (uint16_t)(t->tile.bottom - t->tile.top);
+        tile->bytes = t->colours[t->next_buffer];
+        tile->size_bytes = (uint32_t)tile->width * tile->height * TUILE_FORMAT_BYTES(t->config.format);
+        t->next_buffer = (uint8_t)((t->next_buffer + 1) % t->config.buffers);
+        t->next_tile += t->config.tile_step;
+        t->stats.tiles++;
+        return 1;
+    }
+}
+
+int tuile_seek(tuile_t *t, uint32_t tile_index) {
+    if (t == NULL) { return TUILE_ERROR_ARGUMENT; }
+    if (!t->in_frame) { return TUILE_ERROR_SEQUENCE; }
+    if (tile_index >= (uint32_t)t->tile_columns * t->tile_rows) { return TUILE_ERROR_ARGUMENT; }
+    t->next_tile = tile_index;
+    return TUILE_OK;
+}
+
+int tuile_end(tuile_t *t, tuile_stats_t *stats) {
+    if (t == NULL) { return TUILE_ERROR_ARGUMENT; }
+    if (!t->in_frame) { return TUILE_ERROR_SEQUENCE; }
+    t->in_frame = false;
+    if (stats) { *stats = t->stats; }
+    return TUILE_OK;
+}

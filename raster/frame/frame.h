@@ -1,0 +1,131 @@
+/* The inside of a renderer: how the caller's block is laid out, and the lists that lead from faces to tiles.
+ *
+ *   block: | tuile_t | depth | colours 0 | colours 1 | buckets | arena ...                                            |
+ *   arena: | shading ramps | vertices ->                 <- carried states moved up          <- records (from the end) |
+ *
+ * A record is one face of the pass. Records are numbered in the order of the faces, so their numbers decide ties. Each hangs in the
+ * bucket of the tile row where it starts; from there on its state is carried in a stream between vertices and records, in the
+ * same order, or, where there is no room for that, the record moves on to the next bucket and is set up again there.
+ */
+#ifndef TUILE_FRAME_FRAME_H
+#define TUILE_FRAME_FRAME_H
+
+#include "../fill/polygon.h"
+#include "../fill/triangle.h"
+#include "../geometry/clip.h"
+#include "../geometry/cull.h"
+#include "../geometry/model.h"
+#include "../geometry/transform.h"
+#include "../geometry/vertex.h"
+#include "../tuile.h"
+
+#define RAMP_COLOURS 64
+#define RAMP_BYTES (RAMP_COLOURS * 2)
+#define RECORD_NONE 0 /* `next` holds a record's number + 1 */
+
+/* v0 is the slot of a topmost vertex, d1 and d2 lead from it to the others, in counter-clockwise order. d1 = 0: v0 is the slot of a
+ * polygon_slot_t. */
+typedef struct record {
+    uint16_t next;
+    uint16_t v0;
+    int8_t d1, d2;
+    uint8_t material; /* counted through the models of the scene */
+    uint8_t light;    /* flat shading */
+} record_t;
+
+/* TUILE_FACE_IDS wants the id too. */
+typedef struct record_id {
+    record_t record;
+    uint32_t id;
+} record_id_t;
+
+/* Heads a polygon among the vertices: `count` corners; listed, as bytes relative to slot `base`, in the slots behind this one, or, for a
+ * clipped polygon, the `count` vertices from slot `base` on. */
+typedef struct polygon_slot {
+    uint16_t count, base;
+    uint16_t listed, unused;
+} polygon_slot_t;
+_Static_assert(sizeof(vertex_t) == 8 && sizeof(polygon_slot_t) == 8 && sizeof(record_t) == 8, "one slot");
+
+typedef struct tuile {
+    tuile_config_t config;
+    const tuile_scene_t *scene;
+    tuile_stats_t stats;
+    uint16_t *depth;
+    uint8_t *colours[2];
+    uint16_t *buckets;     /* one per tile row of the window */
+    uint8_t *arena, *arena_end;
+    uint32_t tile_bytes;   /* of one colour buffer */
+    uint16_t tile_columns, tile_rows;
+    uint8_t record_bytes;
+    uint8_t next_buffer;
+    /* Ramps, at the start of the arena: ramp m % ramp_count holds material ramp_tags[m % ramp_count]. */
+    uint16_t *ramps;
+    int16_t *ramp_tags;
+    uint16_t ramp_count, material_count;
+    uint16_t background;
+    /* The pass. */
+    vertex_t *vertices;
+    uint8_t *states;       /* where the stream of states may begin: after the vertices */
+    uint32_t vertex_count, vertex_limit;
+    uint32_t record_count;
+    uint16_t pass_first, pass_end; /* tile rows */
+    uint16_t rows_hint;            /* tile rows that fitted last time */
+    bool immediate;                /* the pass covers one tile, faces are drawn as they come */
+    bool in_frame, pass_valid;
+    transform_region_t region;
+    transform_t transform;
+    const tuile_instance_t *instance;
+    uint32_t face_base;     /* id of the first face of the instance */
+    uint16_t material_base; /* of the instance's model */
+    raster_tile_t tile;
+    span_kind_t span_kind;
+    /* The row of tiles that is being drawn. */
+    uint16_t row;                 /* whose buckets and states are current */
+    bool row_ready;               /* several columns: all faces of the row are in the stream or in `uncarried` */
+    uint8_t *stream, *stream_end; /* states */
+    uint16_t uncarried;           /* list of records that must be set up in each row */
+    uint32_t next_tile;           /* in row-major order */
+} tuile_state_t;
+_Static_assert(sizeof(tuile_state_t) <= TUILE_STATE_BYTES, "TUILE_STATE_BYTES");
+
+TUILE_INLINE record_t *frame_record(const tuile_t *t, uint32_t number) {
+    return (record_t *)(void *)(t->arena_end - (size_t)(number + 1) * t->record_bytes);
+}
+
+TUILE_INLINE uint32_t frame_record_id(const record_t *record) { return ((const record_id_t *)(const void *)record)->id; }
+
+/* ---- bin.c: the vertex stage and the faces of a pass ---- */
+
+/* Runs all clusters over the region of the pass. 0, 1 when the arena was full, or a negative error. In an immediate pass each
+ * face is handed to zbuffer_draw_record at once and never overflows unless a single cluster does. */
+int bin_pass(tuile_t *t);
+
+/* Hangs all records that reach tile row `row` or below into the buckets again. */
+void bin_again(tuile_t *t, uint16_t row);
+
+/* The rows of pixel centres that a record's face covers. */
+void bin_record_rows(const tuile_t *t, const record_t *record, int32_t *first, int32_t *end);
+
+/* ---- visibility/zbuffer.c: one tile ---- */
+
+void zbuffer_clear(tuile_t *t);
+void zbuffer_draw_record(tuile_t *t, uint32_t number);
+/* Draws column `column` of tile row `row`; rows must not go back within a pass. */
+void zbuffer_draw_tile(tuile_t *t, uint16_t row, uint16_t column);
+
+/* ---- resolve.c: colours in wire order ---- */
+
+/* The 16 bits that stand for a colour in a tile of this format. */
+uint16_t resolve_colour(uint8_t format, uint8_t red, uint8_t green, uint8_t blue);
+
+/* colour * light / 255, rounded. light 0 ... 255. */
+uint16_t resolve_lit(uint8_t format, const uint8_t colour[3], uint32_t light);
+
+/* The colour of a material, counted through the models of the scene. */
+const uint8_t *frame_material(const tuile_t *t, uint32_t material);
+
+/* 64 colours from black to full light. */
+const uint16_t *frame_ramp(tuile_t *t, uint32_t material);
+
+#endif

@@ -1,0 +1,142 @@
+/* Picking (S3): the visible face by drawing one pixel, the point on it by intersecting the pixel's ray with the face's plane. */
+#include "../geometry/wide.h"
+#include "frame.h"
+
+typedef struct ray {
+    wide_t from[3], along[3]; /* in steps, relative to the model's offset */
+} ray_t;
+
+static wide_t dot3(const wide_t a[3], const wide_t b[3]) {
+    return wide_add(wide_add(wide_multiply(a[0], b[0]), wide_multiply(a[1], b[1])), wide_multiply(a[2], b[2]));
+}
+
+/* Rotation matrices are inverted by transposing. */
+static void rotate_back(wide_t out[3], const q2_30_t rotation[3][3], const wide_t in[3]) {
+    for (int j = 0; j < 3; j++) {
+        wide_t sum = {0, 0};
+        for (int k = 0; k < 3; k++) { sum = wide_add(sum, wide_multiply(wide_make(rotation[k][j], -30), in[k])); }
+        out[j] = sum;
+    }
+}
+
+static void pixel_ray(ray_t *ray, const tuile_camera_t *camera, const tuile_instance_t *instance, uint16_t x, uint16_t y) {
+    const tuile_pose_t *pose = &instance->pose;
+    const tuile_model_t *model = instance->model;
+    const wide_t step = wide_multiply(wide_make(model->step.mantissa, model->step.exponent),
+                                      wide_make(pose->scale.mantissa, pose->scale.exponent));
+    const wide_t per_step = wide_reciprocal(step);
+    const wide_t across = wide_multiply(wide_make((int64_t)x * 65536 + 32768 - camera->centre_x, -16),
+                                        wide_reciprocal(wide_make(camera->focal_x, -16)));
+    const wide_t down = wide_multiply(wide_make((int64_t)y * 65536 + 32768 - camera->centre_y, -16),
+                                      wide_reciprocal(wide_make(camera->focal_y, -16)));
+    const wide_t ahead = wide_make(-1, 0), nothing = {0, 0};
+    const bool perspective = camera->projection == TUILE_PERSPECTIVE;
+    const wide_t view_along[3] = {perspective ? across : nothing, perspective ? wide_negate(down) : nothing, ahead};
+    const wide_t view_from[3] = {perspective ? nothing : across, perspective ? nothing : wide_negate(down), nothing};
+    wide_t world[3], local[3];
+
+    rotate_back(world, camera->rotation, view_along);
+    rotate_back(ray->along, pose->rotation, world);
+    rotate_back(world, camera->rotation, view_from);
+    for (int i = 0; i < 3; i++) { world[i] = wide_add(world[i], wide_make((int64_t)camera->eye[i] - pose->translation[i], -16)); }
+    rotate_back(local, pose->rotation, world);
+    for (int i = 0; i < 3; i++) {
+        ray->from[i] = wide_add(wide_multiply(local[i], per_step), wide_make(-(int64_t)model->offset[i], 0));
+    }
+}
+
+/* Positions of a face's corners, found by walking its cluster. Returns how many. */
+static unsigned face_corners(const tuile_model_t *model, uint32_t face, const uint8_t **corners, const uint8_t **positions) {
+    uint32_t low = 0, high = model->cluster_count;
+    while (high - low > 1) {
+        const uint32_t mid = low + (high - low) / 2;
+        if (model_u32(model->clusters + (size_t)mid * MODEL_CLUSTER_BYTES + CLUSTER_AT_FIRST_FACE) <= face) {
+            low = mid;
+        } else {
+            high = mid;
+        }
+    }
+    const uint8_t *cluster = model->clusters + (size_t)low * MODEL_CLUSTER_BYTES;
+    const uint8_t *at = model->faces + model_u32(cluster + CLUSTER_AT_FACE_BYTES);
+    uint32_t skip = face - model_u32(cluster + CLUSTER_AT_FIRST_FACE);
+    *positions = model->positions + 6 * (size_t)model_u32(cluster + CLUSTER_AT_FIRST_VERTEX);
+    if (cluster[CLUSTER_AT_KIND] == MODEL_CLUSTER_TRIANGLES) {
+        *corners = at + 4 * (size_t)skip;
+        return 3;
+    }
+    for (; skip; skip--) { at += 3 + at[0]; }
+    *corners = at + 3;
+    return at[0];
+}
+
+static void face_plane(const tuile_model_t *model, uint32_t face, wide_t normal[3], wide_t point[3]) {
+    const uint8_t *corners, *positions;
+    const unsigned count = face_corners(model, face, &corners, &positions);
+    int64_t sum[3] = {0, 0, 0};
+    for (unsigned i = 0; i < count; i++) { /* Newell: components below 255 * 2^33 */
+        int32_t p[3], q[3];
+        for (unsigned a = 0; a < 3; a++) {
+            p[a] = model_i16(positions + 6 * (size_t)corners[i] + 2 * a);
+            q[a] = model_i16(positions + 6 * (size_t)corners[(i + 1) % count] + 2 * a);
+            if (i == 0) { point[a] = wide_make(p[a], 0); }
+        }
+        for (unsigned a = 0; a < 3; a++) {
+            const unsigned b = (a + 1) % 3, c = (a + 2) % 3;
+            sum[a] += (int64_t)(p[b] - q[b]) * (p[c] + q[c]);
+        }
+    }
+    for (int a = 0; a < 3; a++) { normal[a] = wide_make(sum[a], 0); }
+}
+
+static void intersect(const tuile_scene_t *scene, tuile_hit_t *hit, uint16_t x, uint16_t y) {
+    const tuile_instance_t *instance = &scene->instances[hit->instance];
+    ray_t ray;
+    wide_t normal[3], point[3], between[3];
+    pixel_ray(&ray, &scene->camera, instance, x, y);
+    face_plane(instance->model, hit->face, normal, point);
+    for (int i = 0; i < 3; i++) { between[i] = wide_add(point[i], wide_negate(ray.from[i])); }
+    const wide_t slope = dot3(normal, ray.along);
+    const wide_t distance = wide_sign(slope) ? wide_multiply(dot3(normal, between), wide_reciprocal(slope)) : (wide_t){0, 0};
+    for (int i = 0; i < 3; i++) {
+        const wide_t at = wide_sign(slope) ? wide_add(ray.from[i], wide_multiply(distance, ray.along[i])) : point[i];
+        const int64_t value = wide_to_integer(at, 16);
+        hit->point[i] = (q16_16_t)(value > INT32_MAX ? INT32_MAX : value < INT32_MIN ? INT32_MIN : value);
+    }
+}
+
+int tuile_pick(const tuile_scene_t *scene, const tuile_config_t *config, uint16_t x, uint16_t y, void *block, size_t size_bytes,
+               tuile_hit_t *hit) {
+    tuile_t *t;
+    tuile_tile_t tile;
+    tuile_config_t one = {0};
+
+    if (scene == NULL || config == NULL || hit == NULL || x >= config->width || y >= config->height) { return TUILE_ERROR_ARGUMENT; }
+    one.width = config->width;
+    one.height = config->height;
+    one.tile_width = one.tile_height = 1;
+    one.format = TUILE_FACE_IDS;
+    one.tie = config->tie;
+    one.buffers = 1;
+    one.cluster_vertices = config->cluster_vertices;
+    int result = tuile_init(&t, &one, block, size_bytes, NULL);
+    if (result < 0) { return result; }
+    t->rows_hint = 1;
+    result = tuile_begin(t, scene);
+    if (result < 0) { return result; }
+    (void)tuile_seek(t, (uint32_t)y * one.width + x);
+    result = tuile_next(t, &tile);
+    (void)tuile_end(t, NULL);
+    if (result < 0) { return result; }
+
+    uint32_t id = *(const uint32_t *)(const void *)tile.bytes;
+    if (id == 0) { return 0; }
+    hit->depth = t->depth[0];
+    hit->face = id - 1;
+    hit->instance = 0;
+    while (hit->face >= scene->instances[hit->instance].model->face_count) {
+        hit->face -= scene->instances[hit->instance].model->face_count;
+        hit->instance++;
+    }
+    intersect(scene, hit, x, y);
+    return 1;
+}

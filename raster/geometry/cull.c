@@ -1,0 +1,51 @@
+/* The cone test.
+ *
+ * A face with outward normal n through p faces away from the eye e when dot(p - e, n) >= 0. Let all normals of a cluster lie within
+ * an angle alpha < 90 degrees of the axis a, and all points within radius r of the centre c. For v = c - e the direction v leaves
+ * every such n on the far side when angle(v, a) <= 90 - alpha, that is dot(v, a) >= sin(alpha) |v| |a|; and moving from c to any point
+ * of the sphere changes dot(v, n) by r at most, which the term r |a| covers. The cutoff in the model is sin(alpha), rounded up.
+ *
+ * In integers: dot - r |a| >= (cutoff / 254) |a| |v|, both sides squared once the left one is known to be positive. |v| has 22 bits
+ * a component, so the squares stay below 2^62.
+ */
+#include "cull.h"
+
+#include "model.h"
+
+bool cull_outside(const transform_t *transform, const uint8_t *cluster) {
+    const int32_t x = model_i16(cluster + CLUSTER_AT_CENTRE), y = model_i16(cluster + CLUSTER_AT_CENTRE + 2);
+    const int32_t z = model_i16(cluster + CLUSTER_AT_CENTRE + 4);
+    const uint32_t radius = model_u16(cluster + CLUSTER_AT_RADIUS);
+    for (unsigned p = 0; p < PLANE_COUNT; p++) {
+        const transform_plane_t *plane = &transform->planes[p];
+        const int64_t value = (int64_t)plane->n[0] * x + (int64_t)plane->n[1] * y + (int64_t)plane->n[2] * z + plane->d;
+        if (value + (int64_t)((uint64_t)plane->length * radius) < 0) { return true; }
+    }
+    return false;
+}
+
+bool cull_faces_away(const transform_t *transform, const uint8_t *cluster) {
+    const uint32_t cutoff = cluster[CLUSTER_AT_CUTOFF];
+    if (cutoff == 255 || transform->two_sided) { return false; }
+
+    int64_t dot = 0;
+    uint64_t squares = 0;
+    uint32_t axis_squares = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        const int32_t axis = (int8_t)cluster[CLUSTER_AT_AXIS + i];
+        int32_t v = transform->eye[i];
+        if (transform->perspective) { v = (model_i16(cluster + CLUSTER_AT_CENTRE + 2 * i) >> transform->eye_shift) - v; }
+        dot += (int64_t)axis * v;
+        squares += (uint64_t)((int64_t)v * v);
+        axis_squares += (uint32_t)(axis * axis);
+    }
+    if (transform->perspective) {
+        /* |axis| <= 221; what the shifts cut off is below 2 in each component and in the radius. */
+        const int64_t radius = (model_u16(cluster + CLUSTER_AT_RADIUS) >> transform->eye_shift) + (transform->eye_shift ? 8 : 1);
+        const uint32_t axis_length = fixed_sqrt64(axis_squares) + 1;
+        dot -= radius * axis_length;
+    }
+    if (dot < 0) { return false; }
+    const uint64_t scaled = ((uint64_t)cutoff * cutoff * axis_squares + 64515u) / 64516u; /* (cutoff / 254)^2 |a|^2, rounded up */
+    return (uint64_t)(dot * dot) >= scaled * squares;
+}

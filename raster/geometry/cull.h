@@ -1,0 +1,14 @@
+/* Dropping whole clusters before any of their vertices is touched. */
+#ifndef TUILE_GEOMETRY_CULL_H
+#define TUILE_GEOMETRY_CULL_H
+
+#include "transform.h"
+
+/* The cluster's bounding sphere lies outside near plane, far plane or a side of the region. Never true for a cluster with a
+ * vertex inside; may be false for one that misses the region round a corner. cluster: geometry/model.h. */
+bool cull_outside(const transform_t *transform, const uint8_t *cluster);
+
+/* Every face of the cluster faces away from the eye, whichever point of it is looked at. */
+bool cull_faces_away(const transform_t *transform, const uint8_t *cluster);
+
+#endif

@@ -1,0 +1,91 @@
+/* The layout of a compiled model, the same bytes in flash and in a .tuile file.
+ *
+ * All numbers are little-endian. The block is 4-byte aligned and begins with the header; sections lie at the byte offsets that
+ * the header names, 4-byte aligned, in any order, without overlap with the header.
+ *
+ * A cluster is a small group of neighbouring faces with vertices of its own (a vertex on the border of two clusters stands in
+ * both), so that it can be dropped, transformed and forgotten as one. Its bounding sphere and its cone of normals decide that
+ * before a vertex is touched.
+ */
+#ifndef TUILE_GEOMETRY_MODEL_H
+#define TUILE_GEOMETRY_MODEL_H
+
+#include "../tuile.h"
+
+#define MODEL_MAGIC 0x4c495554u /* "TUIL" */
+#define MODEL_VERSION 1u
+#define MODEL_HEADER_BYTES 96u
+
+/* Byte offsets in the header. */
+enum {
+    MODEL_AT_MAGIC = 0,           /* u32 */
+    MODEL_AT_SIZE = 4,            /* u32, of the whole block */
+    MODEL_AT_CRC32 = 8,           /* u32, IEEE 802.3 (reflected, as zlib's), over bytes 12 ... size - 1 */
+    MODEL_AT_VERSION = 12,        /* u16 */
+    MODEL_AT_FLAGS = 14,          /* u16, MODEL_FLAG_... */
+    MODEL_AT_VERTICES = 16,       /* u32 */
+    MODEL_AT_FACES = 20,          /* u32 */
+    MODEL_AT_CLUSTERS = 24,       /* u32 */
+    MODEL_AT_SOURCE_FACES = 28,   /* u32 */
+    MODEL_AT_MATERIALS = 32,      /* u16, 1 ... 256 */
+    MODEL_AT_CLUSTER_MAX = 34,    /* u16, vertices of the largest cluster, 3 ... 255 */
+    MODEL_AT_CORNERS_MAX = 36,    /* u16, corners of the largest face, 3 ... 255 */
+    MODEL_AT_RADIUS = 38,         /* u16, bounding sphere */
+    MODEL_AT_CENTRE = 40,         /* 3 x i16 */
+    MODEL_AT_STEP_EXPONENT = 46,  /* i16 */
+    MODEL_AT_STEP_MANTISSA = 48,  /* u32, > 0 */
+    MODEL_AT_OFFSET = 52,         /* 3 x i32 */
+    MODEL_AT_POSITIONS = 64,      /* u32 byte offset of the section, and so on */
+    MODEL_AT_NORMALS = 68,
+    MODEL_AT_CLUSTER_TABLE = 72,
+    MODEL_AT_FACE_BYTES = 76,
+    MODEL_AT_FACE_BYTES_SIZE = 80, /* u32, size of that section */
+    MODEL_AT_FACE_NORMALS = 84,
+    MODEL_AT_MATERIAL_TABLE = 88,
+    MODEL_AT_SOURCE = 92, /* 0 when there is no source map */
+};
+
+enum {
+    MODEL_FLAG_SOURCE32 = 1, /* the source map has u32 entries, else u16 */
+};
+
+/* positions    vertices x 3 x i16, in steps
+ * normals      vertices x 3 x i8, 127 = 1.0, outward
+ * face normals faces x 3 x i8, of the plane, outward
+ * materials    materials x {u8 red, green, blue, 0}
+ * source       faces x u16 or u32: the importer's number of each face, 0-based; several may share one (a split polygon)
+ * face bytes   per cluster, at its face_bytes offset:
+ *              MODEL_CLUSTER_TRIANGLES: per face u8 a, b, c, material, 4-byte aligned
+ *              MODEL_CLUSTER_POLYGONS:  per face u8 corners n, u8 flags, u8 material, n x u8 corner
+ *              a corner is an index into the cluster's vertices; front faces are counter-clockwise.
+ * clusters     28 bytes each, as below. Their faces and vertices follow on one another: cluster k's first face is the sum of the
+ *              face counts before it, and so for vertices.
+ */
+#define MODEL_CLUSTER_BYTES 28u
+enum {
+    CLUSTER_AT_CENTRE = 0,      /* 3 x i16: sphere around its vertices */
+    CLUSTER_AT_RADIUS = 6,      /* u16, rounded up */
+    CLUSTER_AT_AXIS = 8,        /* 3 x i8: mean direction of the face normals, any length up to 127 */
+    CLUSTER_AT_CUTOFF = 11,     /* u8: the cluster faces away from an eye e when
+                                   dot(centre - e, axis) - radius * |axis| >= (cutoff / 254) * |axis| * |centre - e|
+                                   (with |axis| rounded up); 255 = never. See geometry/cull.c. */
+    CLUSTER_AT_FIRST_VERTEX = 12, /* u32 */
+    CLUSTER_AT_FIRST_FACE = 16,   /* u32 */
+    CLUSTER_AT_FACE_BYTES = 20,   /* u32, relative to the face bytes section */
+    CLUSTER_AT_FACE_COUNT = 24,   /* u16, >= 1 */
+    CLUSTER_AT_VERTEX_COUNT = 26, /* u8, 3 ... 255 */
+    CLUSTER_AT_KIND = 27,         /* u8 */
+};
+enum { MODEL_CLUSTER_TRIANGLES = 0, MODEL_CLUSTER_POLYGONS = 1 };
+enum { MODEL_FACE_CONVEX = 1 }; /* strictly: may be cut into a fan from its first corner */
+
+#define MODEL_TRIANGLE_CLUSTER_VERTICES 128u /* a cluster of triangles has at most so many vertices */
+
+static inline uint16_t model_u16(const uint8_t *p) { return (uint16_t)(p[0] | p[1] << 8); }
+static inline int16_t model_i16(const uint8_t *p) { return (int16_t)model_u16(p); }
+static inline uint32_t model_u32(const uint8_t *p) { return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24; }
+
+/* CRC-32 as in the header; start with crc = 0. */
+uint32_t model_crc32(uint32_t crc, const uint8_t *bytes, size_t size_bytes);
+
+#endif

@@ -1,0 +1,66 @@
+/* What an instance needs to know of a frame: from its quantised vertices to the window, in integers. Made once per instance
+ * and pass; geometry/vertex.c uses it per vertex, geometry/cull.c per cluster, geometry/clip.c per clipped face.
+ */
+#ifndef TUILE_GEOMETRY_TRANSFORM_H
+#define TUILE_GEOMETRY_TRANSFORM_H
+
+#include "../fixed.h"
+#include "../tuile.h"
+
+#define TRANSFORM_LIGHTS_MAX 8
+
+/* An affine function of a quantised position q: (sum of m[i] * q[i]) + t, the `fine` value; fine >> 16 is the `coarse` one.
+ * |m[i]| < 2^31, and |fine| < 2^46 for every position inside the model's bounding sphere. */
+typedef struct transform_row {
+    int32_t m[3];
+    int64_t t;
+} transform_row_t;
+
+/* A half space: inside where (sum of n[i] * q[i]) + d >= 0. |n[i]| < 2^24. length >= |n|. */
+typedef struct transform_plane {
+    int32_t n[3];
+    int64_t d;
+    uint32_t length;
+} transform_plane_t;
+
+enum { PLANE_NEAR, PLANE_FAR, PLANE_LEFT, PLANE_RIGHT, PLANE_TOP, PLANE_BOTTOM, PLANE_COUNT };
+
+typedef struct transform {
+    /* Perspective: x = X/W, y = Y/W; orthographic: X, Y; third row W, or the depth itself. All fine values. */
+    transform_row_t x, y, w;
+    bool perspective;
+    int8_t k;              /* perspective: window coordinate in 1/16 pixel = X * 2^k / W, 0 <= k <= 32; orthographic: X * 2^k, k < 0 */
+    int8_t depth_shift;    /* perspective: depth in 1/256 step = reciprocal >> (depth_shift - n), geometry/vertex.c;
+                              orthographic: fine w >> depth_shift */
+    int64_t w_low, w_high; /* fine values between near and far plane */
+    int32_t w_fast;        /* coarse: from here on 32-bit arithmetic is exact enough (perspective) */
+    int32_t guard_x, guard_y; /* least window coordinates that a vertex may have, 1/16 pixel; they span GUARD_SPAN */
+    /* Culling of clusters. */
+    transform_plane_t planes[PLANE_COUNT];
+    int32_t eye[3];    /* perspective: steps >> eye_shift; orthographic: the view direction, |.| <= 2^20 */
+    uint8_t eye_shift; /* eyes far away are cut to 21 bits */
+    /* Light. */
+    int16_t lights[TRANSFORM_LIGHTS_MAX][3]; /* in model space, towards the light, scaled: (normal . light) >> 13 is 0 ... 255 */
+    uint8_t light_count, ambient;
+    bool two_sided;
+} transform_t;
+
+#define GUARD_SPAN 32768 /* 2048 pixels: differences of coordinates fit in 16 bits, their products in 31 */
+
+/* The part of the window that a pass or a tile covers: pixels left ... right - 1, top ... bottom - 1. */
+typedef struct transform_region {
+    uint16_t left, top, right, bottom;
+} transform_region_t;
+
+/* 0, TUILE_ERROR_CAMERA, TUILE_ERROR_ARGUMENT or TUILE_ERROR_RANGE. */
+int transform_make(transform_t *transform, const tuile_scene_t *scene, const tuile_instance_t *instance, uint16_t window_width,
+                   uint16_t window_height);
+
+/* The four sides of the region as culling planes; transform_make must have been called. */
+void transform_region(transform_t *transform, const transform_region_t *region);
+
+TUILE_INLINE int64_t transform_fine(const transform_row_t *row, const int16_t q[3]) {
+    return (int64_t)row->m[0] * q[0] + (int64_t)row->m[1] * q[1] + (int64_t)row->m[2] * q[2] + row->t;
+}
+
+#endif

@@ -1,0 +1,107 @@
+/* The vertex stage: each vertex of a surviving cluster once per pass.
+ *
+ * Perspective. With W normalised to 32 bits by n places, r = 2^62 / (W << n), so 1 / W = r * 2^(n - 62), and
+ *     x in 1/16 pixel = X * 2^k / W = (X * r / 2^32) >> (30 - k - n)        depth in 1/256 = 2^24 * 2^ew / W = r >> (depth_shift - n).
+ * Errors, in 1/16 pixel, for W >= w_fast: X cut to coarse 1/32, the product cut 1/8, r and W 2^-20 of |x|: below 1/5 in all, that is
+ * 1/80 pixel before the snap. Vertices nearer than w_fast are projected from fine coordinates instead. The choice depends on
+ * the vertex alone, so a vertex that stands in two clusters comes out the same in both.
+ */
+#include "vertex.h"
+
+static vertex_t outside(uint8_t light) { return (vertex_t){VERTEX_OUTSIDE, 0, light}; }
+
+TUILE_NOINLINE bool vertex_project(const transform_t *transform, int64_t x, int64_t y, int64_t w, uint8_t light, bool clamp,
+                                   vertex_t *out) {
+    int64_t wx, wy, depth;
+
+    if (w < transform->w_low || w > transform->w_high) { return false; }
+    if (transform->perspective) {
+        const unsigned n = fixed_clz64((uint64_t)w); /* 17 <= n <= 46 */
+        uint32_t r = fixed_reciprocal((uint32_t)(((uint64_t)w << n) >> 32));
+        if (r > INT32_MAX) { r = INT32_MAX; }
+        const unsigned shift = 93u - (unsigned)(transform->k + (int)n); /* one bit is kept for rounding */
+        wx = (fixed_mul_shift(x, (int32_t)r, shift) + 1) >> 1;
+        wy = (fixed_mul_shift(y, (int32_t)r, shift) + 1) >> 1;
+        depth = r >> ((unsigned)transform->depth_shift + 16u - n);
+    } else {
+        const unsigned shift = (unsigned)-transform->k;
+        wx = ((x >> (shift - 1)) + 1) >> 1;
+        wy = ((y >> (shift - 1)) + 1) >> 1;
+        depth = w >> transform->depth_shift;
+    }
+    if (depth < VERTEX_DEPTH_MIN) { depth = VERTEX_DEPTH_MIN; }
+    wx -= transform->guard_x;
+    wy -= transform->guard_y;
+    if (clamp) {
+        wx = wx < 0 ? 0 : wx > GUARD_SPAN - 1 ? GUARD_SPAN - 1 : wx;
+        wy = wy < 0 ? 0 : wy > GUARD_SPAN - 1 ? GUARD_SPAN - 1 : wy;
+    } else if (wx < GUARD_MARGIN || wx >= GUARD_SPAN - GUARD_MARGIN || wy < GUARD_MARGIN || wy >= GUARD_SPAN - GUARD_MARGIN) {
+        return false;
+    }
+    *out = (vertex_t){(int16_t)(wx + transform->guard_x), (int16_t)(wy + transform->guard_y), (uint32_t)depth << 8 | light};
+    return true;
+}
+
+static TUILE_NOINLINE vertex_t vertex_from_fine(const transform_t *transform, const int16_t *q, uint8_t light) {
+    vertex_t vertex;
+    const bool inside = vertex_project(transform, transform_fine(&transform->x, q), transform_fine(&transform->y, q),
+                                       transform_fine(&transform->w, q), light, false, &vertex);
+    return inside ? vertex : outside(light);
+}
+
+TUILE_INLINE int32_t coarse(const transform_row_t *row, int32_t x, int32_t y, int32_t z) {
+    return (int32_t)(((int64_t)row->m[0] * x + (int64_t)row->m[1] * y + (int64_t)row->m[2] * z + row->t) >> 16);
+}
+
+static void perspective(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count, vertex_t *out) {
+    const int32_t first = transform->w_fast, range = (int32_t)(transform->w_high >> 16) - first; /* negative: nothing is fast */
+    const int32_t k = transform->k, depth_shift = transform->depth_shift;
+    const int32_t guard_x = transform->guard_x, guard_y = transform->guard_y;
+
+    for (; count; count--, q += 3, out++) {
+        uint8_t light = VERTEX_LIGHT_MIN;
+        if (normal) {
+            light = vertex_light(transform, normal[0], normal[1], normal[2]);
+            normal += 3;
+        }
+        const int32_t w = coarse(&transform->w, q[0], q[1], q[2]);
+        if (TUILE_UNLIKELY(w < first || w - first >= range)) {
+            *out = vertex_from_fine(transform, q, light);
+            continue;
+        }
+        const int32_t n = (int32_t)fixed_clz32((uint32_t)w);
+        const uint32_t r = fixed_reciprocal((uint32_t)w << n);
+        const unsigned shift = (unsigned)(30 - k - n);
+        const int32_t half = (int32_t)(1u << (shift - 1));
+        const int32_t x = ((fixed_mul_high(coarse(&transform->x, q[0], q[1], q[2]), r) + half) >> shift) - guard_x;
+        const int32_t y = ((fixed_mul_high(coarse(&transform->y, q[0], q[1], q[2]), r) + half) >> shift) - guard_y;
+        uint32_t depth = r >> (depth_shift - n);
+        if (depth < VERTEX_DEPTH_MIN) { depth = VERTEX_DEPTH_MIN; }
+        if (TUILE_LIKELY((uint32_t)(x - GUARD_MARGIN) < GUARD_SPAN - 2 * GUARD_MARGIN &&
+                         (uint32_t)(y - GUARD_MARGIN) < GUARD_SPAN - 2 * GUARD_MARGIN)) {
+            *out = (vertex_t){(int16_t)(x + guard_x), (int16_t)(y + guard_y), depth << 8 | light};
+        } else {
+            *out = outside(light);
+        }
+    }
+}
+
+static void orthographic(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count, vertex_t *out) {
+    for (; count; count--, q += 3, out++) {
+        uint8_t light = VERTEX_LIGHT_MIN;
+        if (normal) {
+            light = vertex_light(transform, normal[0], normal[1], normal[2]);
+            normal += 3;
+        }
+        *out = vertex_from_fine(transform, q, light);
+    }
+}
+
+TUILE_NOINLINE void vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count,
+                                 vertex_t *out) {
+    if (transform->perspective) {
+        perspective(transform, positions, normals, count, out);
+    } else {
+        orthographic(transform, positions, normals, count, out);
+    }
+}

@@ -1,0 +1,270 @@
+/* Tuile: 3D scenes on small displays, drawn tile by tile in a few kilobytes.
+ *
+ * CONVENTIONS
+ *   World and view   right-handed, y up; the camera looks along -z; front faces are counter-clockwise.
+ *   Window           x right, y down, origin at the top left corner of the top left pixel;
+ *                    pixel (i, j) is sampled at its centre (i + 1/2, j + 1/2).
+ *   Vertices         are snapped to 1/16 pixel (round half up) before anything is decided about coverage.
+ *   Coverage         even-odd; a pixel is drawn iff its centre is inside the snapped polygon or on a left or
+ *                    top edge of it. Hence faces that share an edge neither overlap nor leave a gap.
+ *   Depth            larger is nearer; 0 is the background. Perspective: (65528 / 65536) * near / w in units of
+ *                    1 / 65536, which is affine in the window. Orthographic: affine in the distance.
+ *                    Of two faces equally deep at a pixel, the one with the lower index is seen.
+ *   Qm.n             a signed integer divided by 2^n; m counts the sign bit.
+ *   Negative numbers are rounded towards minus infinity wherever they are divided or shifted.
+ *
+ * A frame is pulled: tuile_begin, then tuile_next until it returns 0, then tuile_end. All memory is one block
+ * that the caller gives to tuile_init; with less of it a frame takes more passes over the model, and the picture
+ * is the same. Nothing here allocates, blocks, uses floating point or keeps state outside that block, so any
+ * number of renderers may run at once, on any number of cores, over one scene.
+ */
+#ifndef TUILE_H
+#define TUILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef int32_t q16_16_t; /* lengths in world units, pixels with a fraction */
+typedef int32_t q2_30_t;  /* components of unit vectors and rotations */
+typedef int16_t q2_14_t;  /* the same, compact: light directions */
+typedef int32_t q28_4_t;  /* window coordinates in 1/16 pixel */
+typedef uint16_t bam16_t; /* angles: 65536 is a full turn */
+
+#define TUILE_Q16(x) ((q16_16_t)((x)*65536.0 + ((x) < 0 ? -0.5 : 0.5))) /* for constant expressions */
+#define TUILE_ONE_Q30 ((q2_30_t)1 << 30)
+#define TUILE_ONE_Q14 ((q2_14_t)(1 << 14))
+
+/* Errors are negative. No function reports success after it dropped something. */
+typedef enum tuile_error {
+    TUILE_OK = 0,
+    TUILE_ERROR_ARGUMENT = -1, /* a field of a struct is out of the range stated here */
+    TUILE_ERROR_MEMORY = -2,   /* the block is too small; the size wanted is reported */
+    TUILE_ERROR_MODEL = -3,    /* the bytes of a model are not a model, or are damaged */
+    TUILE_ERROR_CAMERA = -4,   /* degenerate: eye = at, up along the view, near <= 0, far <= near ... */
+    TUILE_ERROR_RANGE = -5,    /* model, pose and camera together leave the number range */
+    TUILE_ERROR_SEQUENCE = -6, /* tuile_next without tuile_begin, and the like */
+} tuile_error_t;
+
+/* One line of English about an error code; never NULL. */
+const char *tuile_error_text(int error);
+
+/* ---- models ------------------------------------------------------------------------------------------------ */
+
+/* mantissa * 2^exponent, for sizes whose order of magnitude is not known in advance. */
+typedef struct tuile_scale {
+    uint32_t mantissa;
+    int32_t exponent;
+} tuile_scale_t;
+
+#define TUILE_SCALE_ONE ((tuile_scale_t){1, 0})
+
+/* An opened model: pointers into the caller's bytes, which must outlive it. geometry/model.h has the layout. */
+typedef struct tuile_model {
+    const uint8_t *bytes;
+    uint32_t size_bytes;
+    uint32_t vertex_count, face_count, cluster_count, material_count;
+    uint32_t source_face_count;     /* faces in the order in which the importer delivered them */
+    uint16_t cluster_vertices_max;  /* vertices of the largest cluster */
+    uint16_t corners_max;           /* corners of the face with most */
+    tuile_scale_t step;             /* model units per quantisation step */
+    int32_t offset[3];              /* in steps: position = step * (offset + stored int16) */
+    int16_t centre[3];              /* bounding sphere, in steps relative to offset */
+    uint16_t radius;
+    uint16_t flags;
+    const uint8_t *positions, *normals, *clusters, *faces, *face_normals, *materials, *source;
+} tuile_model_t;
+
+/* Opens a model that `tuile mesh` wrote, from flash or from a file read into memory. Every index, offset and count
+ * is checked (the check sum too), so that a model that opens can be drawn without a read out of bounds.
+ * bytes: 4-byte aligned. Returns 0, TUILE_ERROR_ARGUMENT or TUILE_ERROR_MODEL. */
+int tuile_model_open(tuile_model_t *model, const void *bytes, size_t size_bytes);
+
+/* The importer's number of a face of the model (0-based), for a face index as drawn. */
+uint32_t tuile_model_source_face(const tuile_model_t *model, uint32_t face);
+
+/* ---- scene ------------------------------------------------------------------------------------------------- */
+
+/* Where an instance stands: world = rotation * (scale * model) + translation. */
+typedef struct tuile_pose {
+    q2_30_t rotation[3][3]; /* orthonormal; a reflection turns front faces into back faces */
+    tuile_scale_t scale;    /* > 0 */
+    q16_16_t translation[3];
+} tuile_pose_t;
+
+typedef struct tuile_instance {
+    const tuile_model_t *model;
+    tuile_pose_t pose;
+    bool two_sided; /* draw back faces too, lit as front faces */
+} tuile_instance_t;
+
+/* A directional light. */
+typedef struct tuile_light {
+    q2_14_t direction[3]; /* unit vector, world space, the way the light travels */
+    uint8_t intensity;    /* 255 = 1.0 */
+} tuile_light_t;
+
+typedef enum tuile_projection {
+    TUILE_PERSPECTIVE = 0,
+    TUILE_ORTHOGRAPHIC = 1,
+} tuile_projection_t;
+
+/* view = rotation * (world - eye); window x = centre_x + focal_x * view.x / -view.z, y = centre_y - focal_y * view.y / -view.z;
+ * orthographic: window x = centre_x + focal_x * view.x, y = centre_y - focal_y * view.y. */
+typedef struct tuile_camera {
+    tuile_projection_t projection;
+    q2_30_t rotation[3][3]; /* world to view */
+    q16_16_t eye[3];
+    q16_16_t focal_x, focal_y;   /* perspective: focal length / pixel pitch, in pixels; orthographic: pixels per unit */
+    q16_16_t centre_x, centre_y; /* principal point in pixels; the middle of a window is width / 2, height / 2 */
+    q16_16_t near, far;          /* distances along the view axis; faces are clipped to them. Perspective: near > 0 */
+} tuile_camera_t;
+
+/* Sets rotation and eye. up need not be perpendicular to the view, only not parallel to it. */
+int tuile_camera_look_at(tuile_camera_t *camera, const q16_16_t eye[3], const q16_16_t at[3], const q16_16_t up[3]);
+
+/* Focal length in pixels for a full field of view (0 < fov < half a turn) across size_px pixels. 0 when out of range. */
+q16_16_t tuile_focal_px(bam16_t fov, uint16_t size_px);
+
+/* Rotation by angle about x (0), y (1) or z (2), counter-clockwise seen from the positive end of the axis. */
+void tuile_rotation(q2_30_t rotation[3][3], int axis, bam16_t angle);
+
+q2_30_t tuile_sin(bam16_t angle);
+q2_30_t tuile_cos(bam16_t angle);
+
+typedef struct tuile_scene {
+    const tuile_instance_t *instances;
+    uint16_t instance_count;
+    const tuile_light_t *lights;
+    uint8_t light_count;
+    uint8_t ambient; /* 255 = 1.0 */
+    uint8_t background[3]; /* red, green, blue */
+    tuile_camera_t camera;
+} tuile_scene_t;
+
+/* ---- renderer ---------------------------------------------------------------------------------------------- */
+
+typedef enum tuile_format {
+    TUILE_RGB565_BE = 0, /* 2 bytes a pixel, high byte first: what MIPI DCS panels take */
+    TUILE_RGB565_LE = 1,
+    TUILE_FACE_IDS = 2, /* 4 bytes a pixel, a native uint32_t: 0 = background, else 1 + face index counted through the
+                           instances in order (of each, its model's face order) */
+} tuile_format_t;
+
+typedef enum tuile_method {
+    TUILE_ZBUFFER = 0,
+} tuile_method_t;
+
+typedef enum tuile_shade {
+    TUILE_FLAT = 0,    /* one colour a face, from the face's normal */
+    TUILE_GOURAUD = 1, /* light at each corner, interpolated */
+} tuile_shade_t;
+
+typedef enum tuile_tie {
+    TUILE_TIE_FIRST = 0, /* of two faces equally deep the one with the lower index is seen */
+    TUILE_TIE_LAST = 1,
+} tuile_tie_t;
+
+#define TUILE_WINDOW_MAX_PX 1024 /* width and height */
+
+/* Zero = default, throughout. */
+typedef struct tuile_config {
+    uint16_t width, height;           /* window, 1 ... TUILE_WINDOW_MAX_PX */
+    uint16_t tile_width, tile_height; /* 0 = whole width; 0 = as high as suits the block, at most 24 rows */
+    uint8_t format;                   /* tuile_format_t */
+    uint8_t method;                   /* tuile_method_t */
+    uint8_t shade;                    /* tuile_shade_t */
+    uint8_t tie;                      /* tuile_tie_t */
+    uint8_t buffers;                  /* tiles in flight: 1 or 2; 0 = 2 */
+    uint16_t cluster_vertices;        /* largest cluster of any model to be drawn, 0 = 255 */
+    uint16_t tile_first, tile_step;   /* draw tiles first, first + step, ... in row-major order; step 0 = 1 */
+    uint16_t row_first, row_end;      /* draw only the tiles that start in rows [first, end); end 0 = height */
+} tuile_config_t;
+
+/* Constant expressions for the size of the block, in bytes. */
+#define TUILE_FORMAT_BYTES(format) ((format) == TUILE_FACE_IDS ? 4u : 2u)
+#define TUILE_ALIGN8(n) (((n) + 7u) & ~(size_t)7u)
+#define TUILE_STATE_BYTES 1024u /* the renderer itself: an upper bound, asserted */
+#define TUILE_CLIP_BYTES 512u   /* room for one clipped face */
+/* State, tile buffers, their depth, one shading ramp and the table of tile rows. */
+#define TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers)                                                              \
+    (TUILE_STATE_BYTES + TUILE_ALIGN8(2u * (tile_w) * (tile_h)) +                                                               \
+     (buffers)*TUILE_ALIGN8((size_t)TUILE_FORMAT_BYTES(format) * (tile_w) * (tile_h)) + 128u +                                  \
+     TUILE_ALIGN8(2u * (((height) + (tile_h)-1u) / (tile_h))))
+/* The least block that draws any scene whose clusters have at most cluster_vertices vertices. */
+#define TUILE_LEAST_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices)                                            \
+    (TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers) + 8u * (cluster_vertices) + TUILE_CLIP_BYTES)
+
+typedef struct tuile tuile_t;
+
+/* Lays a renderer out in block, which must be 8-byte aligned and outlive it. Nothing else is ever written but the block.
+ * wanted_bytes (may be NULL) receives the least size for this configuration, whether or not the call succeeds.
+ * TUILE_ERROR_MEMORY when size_bytes is less. */
+int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, size_t size_bytes, size_t *wanted_bytes);
+
+/* The configuration in force, with every default filled in. */
+const tuile_config_t *tuile_config(const tuile_t *renderer);
+
+/* Starts a frame. The scene and all it points to stay unchanged until tuile_end. */
+int tuile_begin(tuile_t *renderer, const tuile_scene_t *scene);
+
+typedef struct tuile_tile {
+    uint16_t x, y, width, height; /* rectangle in the window, cut to it */
+    const uint8_t *bytes;         /* width * height pixels, row by row without gaps, in wire order */
+    uint32_t size_bytes;
+} tuile_tile_t;
+
+/* Draws the next tile. Returns 1 and the tile, 0 when the frame is complete, or an error.
+ * tile->bytes stay valid until `buffers` more calls have been made: with two buffers one tile may be on the wire
+ * while the next is drawn. */
+int tuile_next(tuile_t *renderer, tuile_tile_t *tile);
+
+/* Draws one tile out of turn, by its number in row-major order; tuile_next then goes on behind it. Any order gives the
+ * same picture; going forward row by row is the cheap one. */
+int tuile_seek(tuile_t *renderer, uint32_t tile_index);
+
+/* Figures of a frame. Counts of work are summed over passes: what was done, not what was there. */
+typedef struct tuile_stats {
+    uint32_t faces;                /* in the scene */
+    uint32_t clusters;             /* looked at */
+    uint32_t clusters_outside;     /* dropped whole: outside the window, near or far plane */
+    uint32_t clusters_facing_away; /* dropped whole: normal cone */
+    uint32_t vertices;             /* transformed */
+    uint32_t faces_tested;         /* of the clusters that were left */
+    uint32_t faces_back;           /* culled by signed area */
+    uint32_t faces_degenerate;     /* no area after snapping */
+    uint32_t faces_outside;        /* outside the window or the band of the pass, or between pixel centres */
+    uint32_t faces_clipped;        /* cut by near plane, far plane or guard band */
+    uint32_t faces_clipped_away;   /* nothing left of them */
+    uint32_t faces_binned;         /* handed to tiles */
+    uint32_t faces_setup;          /* edge and gradient set-ups */
+    uint32_t faces_resumed;        /* set up again because there was no room to carry their state */
+    uint32_t passes;               /* over the model, failed attempts included */
+    uint32_t tiles;
+    uint32_t tiles_immediate; /* drawn without bins, for lack of memory */
+    uint32_t size_bytes;      /* the block */
+    uint32_t least_bytes;     /* the least block for this configuration */
+    uint32_t peak_bytes;      /* the block that would have given the same passes */
+} tuile_stats_t;
+
+/* Ends a frame, complete or not. stats may be NULL. */
+int tuile_end(tuile_t *renderer, tuile_stats_t *stats);
+
+/* ---- picking ----------------------------------------------------------------------------------------------- */
+
+typedef struct tuile_hit {
+    uint16_t instance;
+    uint32_t face;     /* index in the instance's model */
+    uint16_t depth;    /* as in the depth buffer */
+    q16_16_t point[3]; /* on the plane of the face, in steps of the model relative to its offset, times 65536 */
+} tuile_hit_t;
+
+/* The face seen at pixel (x, y) of the window that config describes, and the point of it there: where the ray through the pixel's centre
+ * meets the plane of the face (saturated where the face is seen from its edge). block: scratch, 8-byte aligned, of at least
+ * TUILE_PICK_BYTES. Only config's width, height, tie and cluster_vertices matter. Returns 1 and the hit, 0 where the background is seen,
+ * or an error. */
+#define TUILE_PICK_BYTES(height, cluster_vertices) TUILE_LEAST_BYTES(height, 1u, 1u, TUILE_FACE_IDS, 1u, cluster_vertices)
+int tuile_pick(const tuile_scene_t *scene, const tuile_config_t *config, uint16_t x, uint16_t y, void *block, size_t size_bytes,
+               tuile_hit_t *hit);
+
+#endif

@@ -1,0 +1,311 @@
+/* The tile z-buffer (S4, S13): 16 bits of depth per pixel of one tile, whatever the size of the window.
+ *
+ * A tile row meets its faces in the order of their records: those whose bucket it is, and those carried from the row above. Both lists
+ * are sorted by record, so one merge gives the order, and the first face wins a tie by coming first.
+ *
+ * One column (strips): a face is set up, drawn and, if it reaches beyond the strip, its state is written to the stream. The stream is
+ * moved to the end of the free room first, so that the new one can grow where the old one was.
+ * Several columns: all faces of the row enter the stream before the first tile is drawn; each tile draws from copies, the last one from
+ * the stream itself, which moves the states on to the next row.
+ */
+#include "../frame/frame.h"
+
+#include <string.h>
+
+/* A state in the stream, seen as any of its kinds. */
+typedef union state {
+    struct {
+        uint16_t size_bytes, record;
+    } head;
+    triangle_t triangle;
+    polygon_t polygon;
+} state_t;
+
+static bool is_triangle(const record_t *record) { return record->d1 != 0; }
+
+static polygon_ring_t record_ring(const tuile_t *t, const record_t *record) {
+    const polygon_slot_t *slot = (const polygon_slot_t *)(const void *)&t->vertices[record->v0];
+    return (polygon_ring_t){t->vertices + slot->base, slot->listed ? (const uint8_t *)(slot + 1) : NULL, NULL, slot->count};
+}
+
+static uint32_t face_value(const tuile_t *t, const record_t *record) {
+    if (t->record_bytes == sizeof(record_id_t)) { return frame_record_id(record); }
+    return resolve_lit(t->config.format, frame_material(t, record->material), record->light);
+}
+
+/* False when the face covers no row from `row` on. */
+static bool state_start(tuile_t *t, state_t *state, uint32_t number, int32_t row) {
+    const record_t *record = frame_record(t, number);
+    t->stats.faces_setup++;
+    if (is_triangle(record)) {
+        const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+        const int32_t x1 = v1->x - v0->x, y1 = v1->y - v0->y, x2 = v2->x - v0->x, y2 = v2->y - v0->y;
+        triangle_start(&state->triangle, v0, v1, v2, x2 * y1 - x1 * y2, row, t->span_kind == SPAN_GOURAUD);
+        state->triangle.size_bytes = sizeof(triangle_t);
+        state->triangle.material = record->material;
+        state->triangle.value = t->span_kind == SPAN_GOURAUD ? 0 : face_value(t, record);
+    } else {
+        const polygon_ring_t ring = record_ring(t, record);
+        if (!polygon_start(&state->polygon, &ring, row)) { return false; }
+        state->polygon.material = record->material;
+        state->polygon.value = face_value(t, record);
+        state->polygon.size_bytes = (uint16_t)((state->polygon.size_bytes + 7u) & ~7u);
+    }
+    state->head.record = (uint16_t)number;
+    return true;
+}
+
+/* Draws what of the face lies in the tile. True when the face reaches below it. */
+static bool state_fill(tuile_t *t, state_t *state) {
+    const record_t *record = frame_record(t, state->head.record);
+    const bool last = t->config.tie == TUILE_TIE_LAST;
+    if (is_triangle(record)) {
+        triangle_t *triangle = &state->triangle;
+        triangle_fill(triangle, &t->tile, t->span_kind, last, t->span_kind == SPAN_GOURAUD ? frame_ramp(t, triangle->material) : NULL);
+        return triangle->row < triangle->row_end;
+    }
+    const polygon_ring_t ring = record_ring(t, record);
+    polygon_fill(&state->polygon, &ring, &t->tile, t->span_kind == SPAN_IDS ? SPAN_IDS : SPAN_FLAT, last);
+    return state->polygon.row < state->polygon.row_end;
+}
+
+static bool state_skip(tuile_t *t, state_t *state, int32_t row) {
+    const record_t *record = frame_record(t, state->head.record);
+    if (is_triangle(record)) {
+        triangle_skip(&state->triangle, row);
+        return state->triangle.row < state->triangle.row_end;
+    }
+    const polygon_ring_t ring = record_ring(t, record);
+    polygon_skip(&state->polygon, &ring, row);
+    return state->polygon.row < state->polygon.row_end;
+}
+
+static bool state_in_columns(const tuile_t *t, const state_t *state) {
+    const record_t *record = frame_record(t, state->head.record);
+    const int32_t left = is_triangle(record) ? state->triangle.left : state->polygon.left;
+    const int32_t right = is_triangle(record) ? state->triangle.right : state->polygon.right;
+    return left < t->tile.right && right > t->tile.left;
+}
+
+/* ---- lists of records ---- */
+
+static uint16_t list_reverse(const tuile_t *t, uint16_t list) {
+    uint16_t reversed = RECORD_NONE;
+    while (list != RECORD_NONE) {
+        record_t *record = frame_record(t, list - 1u);
+        const uint16_t next = record->next;
+        record->next = reversed;
+        reversed = list;
+        list = next;
+    }
+    return reversed;
+}
+
+/* Both sorted; so is the result. */
+static uint16_t list_merge(const tuile_t *t, uint16_t a, uint16_t b) {
+    uint16_t merged = RECORD_NONE, *end = &merged;
+    while (a != RECORD_NONE && b != RECORD_NONE) {
+        uint16_t *less = a < b ? &a : &b;
+        *end = *less;
+        end = &frame_record(t, *less - 1u)->next;
+        *less = *end;
+    }
+    *end = a != RECORD_NONE ? a : b;
+    return merged;
+}
+
+/* ---- rows of tiles ---- */
+
+/* Walks the faces of the current row in order: those of `list` and those of the old stream. */
+typedef struct walk {
+    uint16_t list;               /* records to be set up */
+    uint8_t *old, *old_end;      /* states carried from above */
+    uint8_t *out;                /* where the new stream grows */
+    uint16_t left, *left_end;    /* records that go on without a state */
+} walk_t;
+
+static void walk_begin(tuile_t *t, walk_t *walk) {
+    uint8_t *limit = (uint8_t *)frame_record(t, t->record_count) + t->record_bytes; /* first byte of the last record */
+    limit -= (uintptr_t)limit & 7u;
+    const size_t size = (size_t)(t->stream_end - t->stream);
+    walk->list = list_merge(t, list_reverse(t, t->buckets[t->row]), t->uncarried);
+    t->buckets[t->row] = RECORD_NONE;
+    walk->old = limit - size;
+    walk->old_end = limit;
+    if (size) { memmove(walk->old, t->stream, size); }
+    walk->out = t->states;
+    walk->left = RECORD_NONE;
+    walk->left_end = NULL;
+}
+
+static void walk_end(tuile_t *t, walk_t *walk) {
+    t->stream = t->states;
+    t->stream_end = walk->out;
+    t->uncarried = walk->left;
+}
+
+/* Appends a state to the new stream; a record that finds no room there goes into the list of those without one. */
+static void walk_keep(tuile_t *t, walk_t *walk, const state_t *state) {
+    const size_t size = state->head.size_bytes;
+    if ((size_t)(walk->old - walk->out) >= size) {
+        if ((const uint8_t *)state != walk->out) { memmove(walk->out, state, size); }
+        walk->out += size;
+        return;
+    }
+    const uint16_t number = (uint16_t)(state->head.record + 1u);
+    record_t *record = frame_record(t, state->head.record);
+    record->next = RECORD_NONE;
+    if (walk->left_end) {
+        *walk->left_end = number;
+    } else {
+        walk->left = number;
+    }
+    walk->left_end = &record->next;
+    t->stats.faces_resumed++;
+}
+
+/* The next state in order, set up in `local` or lying in the old stream; NULL at the end. A state stays where it is until the next
+ * call, since the new stream never overtakes the old one. */
+static state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_t row) {
+    for (;;) {
+        const bool more = walk->old < walk->old_end;
+        state_t *carried = (state_t *)(void *)walk->old;
+        if (walk->list != RECORD_NONE && (!more || walk->list - 1u < carried->head.record)) {
+            const uint32_t number = walk->list - 1u;
+            walk->list = frame_record(t, number)->next;
+            if (state_start(t, local, number, row)) { return local; }
+            continue;
+        }
+        if (!more) { return NULL; }
+        walk->old += carried->head.size_bytes;
+        return carried;
+    }
+}
+
+/* All faces of the row through the only column. */
+static void row_draw(tuile_t *t, int32_t top) {
+    walk_t walk;
+    state_t local, *state;
+    walk_begin(t, &walk);
+    while ((state = walk_next(t, &walk, &local, top)) != NULL) {
+        if (state_fill(t, state)) { walk_keep(t, &walk, state); }
+    }
+    walk_end(t, &walk);
+}
+
+/* All faces past the row, undrawn. */
+static void row_pass_by(tuile_t *t, int32_t top, int32_t bottom) {
+    walk_t walk;
+    state_t local, *state;
+    walk_begin(t, &walk);
+    while ((state = walk_next(t, &walk, &local, top)) != NULL) {
+        if (state_skip(t, state, bottom)) { walk_keep(t, &walk, state); }
+    }
+    walk_end(t, &walk);
+}
+
+/* All faces of the row into the stream. */
+static void row_gather(tuile_t *t, int32_t top) {
+    walk_t walk;
+    state_t local, *state;
+    walk_begin(t, &walk);
+    while ((state = walk_next(t, &walk, &local, top)) != NULL) { walk_keep(t, &walk, state); }
+    walk_end(t, &walk);
+}
+
+/* One of several columns. The faces without a state are set up again for each. */
+static void column_draw(tuile_t *t, int32_t top) {
+    const uint8_t *at = t->stream;
+    uint16_t list = t->uncarried;
+    state_t local;
+    while (at < t->stream_end || list != RECORD_NONE) {
+        const state_t *carried = (const state_t *)(const void *)at;
+        if (list != RECORD_NONE && (at >= t->stream_end || list - 1u < carried->head.record)) {
+            const uint32_t number = list - 1u;
+            list = frame_record(t, number)->next;
+            if (state_start(t, &local, number, top) && state_in_columns(t, &local)) { (void)state_fill(t, &local); }
+            continue;
+        }
+        at += carried->head.size_bytes;
+        if (state_in_columns(t, carried)) {
+            memcpy(&local, carried, carried->head.size_bytes);
+            (void)state_fill(t, &local);
+        }
+    }
+}
+
+/* Behind the last column: states move on to the next row, in place. */
+static void row_advance(tuile_t *t, int32_t bottom) {
+    uint8_t *out = t->stream;
+    for (uint8_t *at = t->stream; at < t->stream_end;) {
+        state_t *state = (state_t *)(void *)at;
+        const uint16_t size = state->head.size_bytes;
+        at += size;
+        if (state_skip(t, state, bottom)) {
+            if ((uint8_t *)state != out) { memmove(out, state, size); }
+            out += size;
+        }
+    }
+    t->stream_end = out;
+
+    uint16_t kept = RECORD_NONE, *end = &kept;
+    for (uint16_t list = t->uncarried; list != RECORD_NONE;) {
+        const uint16_t number = list;
+        record_t *record = frame_record(t, number - 1u);
+        int32_t first, row_end;
+        list = record->next;
+        bin_record_rows(t, record, &first, &row_end);
+        if (row_end > bottom) {
+            *end = number;
+            end = &record->next;
+        }
+    }
+    *end = RECORD_NONE;
+    t->uncarried = kept;
+}
+
+static int32_t row_top(const tuile_t *t, uint16_t row) { return row * t->config.tile_height; }
+
+static int32_t row_bottom(const tuile_t *t, uint16_t row) {
+    const int32_t bottom = row_top(t, row) + t->config.tile_height;
+    return bottom < t->config.height ? bottom : t->config.height;
+}
+
+void zbuffer_clear(tuile_t *t) {
+    const size_t pixels = (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top);
+    memset(t->tile.depth, 0, pixels * sizeof(uint16_t));
+    if (t->config.format == TUILE_FACE_IDS) {
+        memset(t->tile.colour, 0, pixels * sizeof(uint32_t));
+    } else {
+        uint16_t *colour = t->tile.colour;
+        for (size_t i = 0; i < pixels; i++) { colour[i] = t->background; }
+    }
+}
+
+void zbuffer_draw_record(tuile_t *t, uint32_t number) {
+    state_t local;
+    if (state_start(t, &local, number, t->tile.top) && state_in_columns(t, &local)) { (void)state_fill(t, &local); }
+}
+
+void zbuffer_draw_tile(tuile_t *t, uint16_t row, uint16_t column) {
+    while (t->row < row) {
+        if (t->row_ready) {
+            row_advance(t, row_bottom(t, t->row));
+            t->row_ready = false;
+        } else {
+            row_pass_by(t, row_top(t, t->row), row_bottom(t, t->row));
+        }
+        t->row++;
+    }
+    if (t->tile_columns == 1) {
+        row_draw(t, row_top(t, row));
+        t->row++;
+        return;
+    }
+    if (!t->row_ready) {
+        row_gather(t, row_top(t, row));
+        t->row_ready = true;
+    }
+    (void)column;
+    column_draw(t, row_top(t, row));
+}

@@ -1,0 +1,66 @@
+/* tuile mesh: compile a model for flash. */
+#include "commands.h"
+#include "mesh/mesh.h"
+#include "options.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char usage[] =
+    "Usage: tuile mesh IN -o OUT.c|OUT.tuile [--name NAME] [--max-faces N]\n"
+    "\n"
+    "Reads a model (OBJ, glTF, PLY, STL, 3DS, Collada and what else Assimp knows) and writes it quantised, clustered and checked,\n"
+    "as a C file with one const object for flash or as a .tuile file with the same bytes.\n"
+    "\n"
+    "  -o FILE          where to write; the ending decides the form\n"
+    "  --name NAME      C identifier of the object (.c only); by default from FILE\n"
+    "  --max-faces N    simplify to at most N triangles\n";
+
+void mesh_report_print(const mesh_report_t *report) {
+    (void)printf("vertices %zu, faces %zu (%zu n-gons), clusters %zu, %zu bytes\n", report->vertices, report->faces, report->polygons,
+                 report->clusters, report->size_bytes);
+    (void)printf("non-planar faces split %zu, degenerate faces skipped %zu, largest quantisation error %.3g model units\n",
+                 report->non_planar, report->skipped, report->quantisation_error);
+}
+
+int command_mesh(int count, char **arguments) {
+    const char *in = NULL, *out = NULL, *name = NULL, *argument;
+    long max_faces = 0;
+    options_t options;
+    sim_error_t error = {""};
+    uint8_t *bytes = NULL;
+    size_t size_bytes = 0;
+    mesh_report_t report;
+
+    options_open(&options, count, arguments);
+    while ((argument = options_next(&options)) != NULL) {
+        if (!options.name) {
+            if (in) { return command_fail("mesh: one model at a time, but got %s and %s", in, argument), EXIT_USAGE; }
+            in = argument;
+        } else if (strcmp(argument, "-o") == 0) {
+            out = options_value(&options);
+        } else if (strcmp(argument, "--name") == 0) {
+            name = options_value(&options);
+        } else if (strcmp(argument, "--max-faces") == 0) {
+            (void)options_integer(&options, &max_faces, 1, 100000000);
+        } else if (strcmp(argument, "--help") == 0) {
+            (void)fputs(usage, stdout);
+            return command_finish();
+        } else {
+            options_unknown(&options);
+        }
+    }
+    if (options.failed) { return EXIT_USAGE; }
+    if (!in || !out) {
+        (void)fputs(usage, stderr);
+        return EXIT_USAGE;
+    }
+    if (mesh_load(in, (size_t)max_faces, &bytes, &size_bytes, &report, &error) != 0) { return command_fail("%s", error.text); }
+    const int failed = mesh_write(bytes, size_bytes, out, name, &error);
+    free(bytes);
+    if (failed) { return command_fail("%s", error.text); }
+    (void)printf("%s: ", out);
+    mesh_report_print(&report);
+    return command_finish();
+}

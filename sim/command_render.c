@@ -1,0 +1,466 @@
+/* tuile render: a model, drawn through tiles, streamed to a simulated panel, and what the panel shows written as pictures. */
+#include "../firmware/stream.h"
+#include "../hal/panels/ili9341.h"
+#include "bus.h"
+#include "chips/ili9341.h"
+#include "commands.h"
+#include "mesh/mesh.h"
+#include "options.h"
+#include "output.h"
+#include "sheet.h"
+#include "view.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char usage[] =
+    "Usage: tuile render MODEL [options]\n"
+    "\n"
+    "MODEL is a .tuile file or anything Assimp reads (OBJ, glTF, PLY, STL, 3DS, Collada ...).\n"
+    "\n"
+    "  --panel ili9341          the panel (240x320)\n"
+    "  --rotate 0|90|180|270    how the panel is held\n"
+    "  --clock HZ               clock of the bus for pixels, like 40M; 0 asks for the panel's usual one\n"
+    "  --method zbuffer         hidden-surface method\n"
+    "  --shade flat|gouraud     flat by default\n"
+    "  --memory 16K|auto        the renderer's memory; auto is enough for one pass\n"
+    "  --tile WxH               tile size in pixels; by default whole rows, as many as suit the memory\n"
+    "  --max-faces N            simplify the model first\n"
+    "  --frames N               number of frames, 1 by default\n"
+    "  --spin DEG               degrees per frame about --up through --at; by default a full turn in all frames\n"
+    "  --eye X,Y,Z --at X,Y,Z --up X,Y,Z   camera, in model units; by default the model is framed\n"
+    "  --fov DEG                vertical field of view, 45 by default\n"
+    "  --near N --far F         distances that are drawn, in model units\n"
+    "  --ortho SIZE             orthographic: SIZE model units high\n"
+    "  --pitch RX,RY            size of a pixel, for panels whose pixels are not square\n"
+    "  --centre I,J             principal point in pixels\n"
+    "  --light X,Y,Z            the way the light travels\n"
+    "  --background RRGGBB\n"
+    "  --out frame-%03d.png     pictures of the panel; PPM when the name ends so\n"
+    "  --sheet FILE.png         all frames on one picture\n"
+    "  --ids FILE               the visible face of each pixel, as rows of text: the importer's number of the face + 1, 0 = background\n"
+    "  --pick I,J               prints the face seen at a pixel and the point on it in model units\n"
+    "  --hash                   prints a hash of the panel's memory for each frame\n"
+    "  --report FILE.json       every figure of every frame\n";
+
+typedef struct render {
+    const char *model_path, *out, *sheet, *ids, *report;
+    long frames, rotate, max_faces;
+    size_t memory_bytes, clock_hz;
+    bool hash, pick;
+    double pick_at[2];
+    tuile_config_t config;
+    view_options_t view_options;
+
+    uint8_t *bytes;
+    tuile_model_t model;
+    view_t view;
+    sim_chip_t *chip;
+    sim_bus_t bus;
+    tuile_display_t display;
+    void *block;
+    tuile_t *renderer;
+    sim_picture_t *pictures; /* of all frames, for the sheet */
+    output_t report_file;
+    uint64_t frame_ns; /* on the wire, of the last frame */
+    tuile_stats_t stats;
+    unsigned passes_max;
+    uint32_t peak_bytes;
+    uint64_t wire_bytes;
+    sim_error_t error;
+} render_t;
+
+static bool parse_background(options_t *options, uint8_t background[3]) {
+    const char *text = options_value(options);
+    unsigned value;
+    char rest;
+    if (!text) { return false; }
+    if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6 || sscanf(text, "%6x%c", &value, &rest) != 1) {
+        (void)command_fail("--background %s: wants six hexadecimal digits, RRGGBB", text);
+        options->failed = true;
+        return false;
+    }
+    background[0] = (uint8_t)(value >> 16);
+    background[1] = (uint8_t)(value >> 8);
+    background[2] = (uint8_t)value;
+    return true;
+}
+
+/* An output name may hold one %d, with a width; without it all frames would have the same name. */
+static bool check_pattern(const char *option, const char *name, long frames) {
+    const char *percent = name ? strchr(name, '%') : NULL;
+    if (!name) { return true; }
+    if (!percent) {
+        if (frames == 1) { return true; }
+        (void)command_fail("%s %s: the name needs a number like %%03d, since there are %ld frames", option, name, frames);
+        return false;
+    }
+    const char *at = percent + 1;
+    while (*at >= '0' && *at <= '9') { at++; }
+    if (*at != 'd' || at - percent > 3 || strchr(at, '%')) {
+        (void)command_fail("%s %s: only one number, like %%d or %%03d, may stand in the name", option, name);
+        return false;
+    }
+    return true;
+}
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+static void frame_name(char *name, size_t size, const char *pattern, unsigned frame) { (void)snprintf(name, size, pattern, (int)frame); }
+#pragma GCC diagnostic pop
+
+static bool parse_clock(options_t *options, size_t *hz) {
+    double value;
+    const char *text = options_value(options);
+    char *end;
+    if (!text) { return false; }
+    value = strtod(text, &end);
+    if (*end == 'M') { value *= 1e6, end++; }
+    if (*end == 'k' || *end == 'K') { value *= 1e3, end++; }
+    if (end == text || *end != '\0' || !(value >= 0 && value <= 1e9)) {
+        (void)command_fail("--clock %s: wants Hz, like 62.5M, up to 1000M", text);
+        options->failed = true;
+        return false;
+    }
+    *hz = (size_t)value;
+    return true;
+}
+
+static int parse(render_t *r, int count, char **arguments) {
+    static const char *const panels[] = {"ili9341", NULL}, *const rotations[] = {"0", "90", "180", "270", NULL};
+    static const char *const methods[] = {"zbuffer", NULL}, *const shades[] = {"flat", "gouraud", NULL};
+    view_options_t *v = &r->view_options;
+    options_t options;
+    const char *argument;
+    int choice;
+
+    r->frames = 1;
+    *v = VIEW_OPTIONS_DEFAULT;
+    options_open(&options, count, arguments);
+    while ((argument = options_next(&options)) != NULL) {
+        const double far = 1e12;
+        if (!options.name) {
+            if (r->model_path) { return command_fail("render: one model at a time, but got %s and %s", r->model_path, argument), EXIT_USAGE; }
+            r->model_path = argument;
+        } else if (strcmp(argument, "--panel") == 0) {
+            (void)options_choice(&options, &choice, panels);
+        } else if (strcmp(argument, "--rotate") == 0) {
+            if (options_choice(&options, &choice, rotations)) { r->rotate = choice; }
+        } else if (strcmp(argument, "--clock") == 0) {
+            (void)parse_clock(&options, &r->clock_hz);
+        } else if (strcmp(argument, "--method") == 0) {
+            if (options_choice(&options, &choice, methods)) { r->config.method = (uint8_t)choice; }
+        } else if (strcmp(argument, "--shade") == 0) {
+            if (options_choice(&options, &choice, shades)) { r->config.shade = (uint8_t)choice; }
+        } else if (strcmp(argument, "--memory") == 0) {
+            if (options.at < count && strcmp(arguments[options.at], "auto") == 0) {
+                options.at++;
+                r->memory_bytes = 0;
+            } else {
+                (void)options_size(&options, &r->memory_bytes);
+                if (r->memory_bytes == 0) { r->memory_bytes = 1; }
+            }
+        } else if (strcmp(argument, "--tile") == 0) {
+            (void)options_tile(&options, &r->config.tile_width, &r->config.tile_height);
+        } else if (strcmp(argument, "--max-faces") == 0) {
+            (void)options_integer(&options, &r->max_faces, 1, 100000000);
+        } else if (strcmp(argument, "--frames") == 0) {
+            (void)options_integer(&options, &r->frames, 1, 100000);
+        } else if (strcmp(argument, "--spin") == 0) {
+            v->has_spin = options_number(&options, &v->spin, -1e6, 1e6);
+        } else if (strcmp(argument, "--eye") == 0) {
+            v->has_eye = options_numbers(&options, v->eye, 3, -far, far);
+        } else if (strcmp(argument, "--at") == 0) {
+            v->has_at = options_numbers(&options, v->at, 3, -far, far);
+        } else if (strcmp(argument, "--up") == 0) {
+            (void)options_numbers(&options, v->up, 3, -far, far);
+        } else if (strcmp(argument, "--fov") == 0) {
+            v->has_fov = options_number(&options, &v->fov, 0.5, 175.0);
+        } else if (strcmp(argument, "--near") == 0) {
+            v->has_near = options_number(&options, &v->near, -far, far);
+        } else if (strcmp(argument, "--far") == 0) {
+            v->has_far = options_number(&options, &v->far, -far, far);
+        } else if (strcmp(argument, "--ortho") == 0) {
+            v->has_ortho = options_number(&options, &v->ortho, 1e-9, far);
+        } else if (strcmp(argument, "--pitch") == 0) {
+            (void)options_numbers(&options, v->pitch, 2, 0.01, 100.0);
+        } else if (strcmp(argument, "--centre") == 0) {
+            v->has_centre = options_numbers(&options, v->centre, 2, -16000.0, 16000.0);
+        } else if (strcmp(argument, "--light") == 0) {
+            v->has_light = options_numbers(&options, v->light, 3, -far, far);
+        } else if (strcmp(argument, "--background") == 0) {
+            (void)parse_background(&options, v->background);
+        } else if (strcmp(argument, "--out") == 0) {
+            r->out = options_value(&options);
+        } else if (strcmp(argument, "--sheet") == 0) {
+            r->sheet = options_value(&options);
+        } else if (strcmp(argument, "--ids") == 0) {
+            r->ids = options_value(&options);
+        } else if (strcmp(argument, "--report") == 0) {
+            r->report = options_value(&options);
+        } else if (strcmp(argument, "--pick") == 0) {
+            r->pick = options_numbers(&options, r->pick_at, 2, 0.0, 1023.0);
+        } else if (strcmp(argument, "--hash") == 0) {
+            r->hash = true;
+        } else if (strcmp(argument, "--help") == 0) {
+            (void)fputs(usage, stdout);
+            return -1;
+        } else {
+            options_unknown(&options);
+        }
+    }
+    if (options.failed) { return EXIT_USAGE; }
+    if (!r->model_path) {
+        (void)fputs(usage, stderr);
+        return EXIT_USAGE;
+    }
+    if (!check_pattern("--out", r->out, r->frames) || !check_pattern("--ids", r->ids, r->frames)) { return EXIT_USAGE; }
+    return 0;
+}
+
+/* A block that holds all faces of all clusters at once. */
+static size_t one_pass_bytes(const tuile_model_t *model, const tuile_config_t *config) {
+    const size_t tile_width = config->tile_width ? config->tile_width : config->width;
+    const size_t tile_height = config->tile_height ? config->tile_height : 24;
+    return TUILE_LEAST_BYTES((size_t)config->height, tile_width, tile_height, config->format, 2u, 255u) + 16u * (size_t)model->vertex_count +
+           130u * (size_t)model->material_count + 24u * (size_t)model->face_count + 65536u;
+}
+
+static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t *config, const tuile_model_t *model, size_t *memory_bytes) {
+    size_t wanted = 0;
+    tuile_config_t c = *config;
+    c.cluster_vertices = model->cluster_vertices_max;
+    if (*memory_bytes == 0) {
+        *memory_bytes = one_pass_bytes(model, &c);
+        if (c.tile_height == 0) { c.tile_height = 16; }
+    }
+    *block = malloc(*memory_bytes);
+    if (!*block) { return command_fail("out of memory"); }
+    const int result = tuile_init(renderer, &c, *block, *memory_bytes, &wanted);
+    if (result == TUILE_ERROR_MEMORY) {
+        return command_fail("--memory: %zu bytes are too few; this model wants at least %zu (smaller tiles want less, see --tile)",
+                            *memory_bytes, wanted);
+    }
+    return result ? command_fail("%s", tuile_error_text(result)) : 0;
+}
+
+static int set_up(render_t *r) {
+    size_t size_bytes;
+    mesh_report_t report;
+    if (mesh_load(r->model_path, (size_t)r->max_faces, &r->bytes, &size_bytes, &report, &r->error) != 0) { return command_fail("%s", r->error.text); }
+    int result = tuile_model_open(&r->model, r->bytes, size_bytes);
+    if (result) { return command_fail("%s: %s", r->model_path, tuile_error_text(result)); }
+
+    r->chip = sim_ili9341_create(&r->error);
+    if (!r->chip) { return command_fail("%s", r->error.text); }
+    const sim_bus_config_t bus = {.clock_hz = (uint32_t)r->clock_hz};
+    sim_bus_open(&r->bus, &bus, r->chip);
+    const tuile_display_config_t display = {.bus = &r->bus.bus, .panel = &tuile_ili9341, .rotation = (uint8_t)r->rotate};
+    result = tuile_display_init(&r->display, &display);
+    if (result) { return command_fail("panel: %s%s%s", tuile_hal_error_text(result), r->bus.error.text[0] ? ": " : "", r->bus.error.text); }
+
+    r->config.width = r->display.width;
+    r->config.height = r->display.height;
+    if (open_renderer(&r->renderer, &r->block, &r->config, &r->model, &r->memory_bytes) != 0) { return EXIT_FAILURE; }
+    if (view_make(&r->view, &r->view_options, &r->model, r->config.width, r->config.height, (unsigned)r->frames, &r->error) != 0) {
+        return command_fail("%s", r->error.text);
+    }
+    if (r->sheet) {
+        r->pictures = calloc((size_t)r->frames, sizeof *r->pictures);
+        if (!r->pictures) { return command_fail("out of memory"); }
+    }
+    return 0;
+}
+
+/* FNV-1a, 64 bits, over the panel's memory as it lies: rows of red, green, blue at rotation 0. */
+static uint64_t panel_hash(const sim_picture_t *glass) {
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < (size_t)glass->width * glass->height * 3; i++) { hash = (hash ^ glass->rgb[i]) * 0x100000001b3u; }
+    return hash;
+}
+
+static int write_ids(render_t *r, unsigned frame) {
+    char name[4096];
+    output_t out;
+    void *block = NULL;
+    tuile_t *renderer;
+    tuile_tile_t tile;
+    tuile_config_t config = r->config;
+    size_t memory_bytes = 0;
+    const size_t width = config.width, pixels = width * config.height;
+
+    if (!strchr(r->ids, '%') && frame > 0) { return 0; }
+    frame_name(name, sizeof name, r->ids, frame);
+    config.format = TUILE_FACE_IDS;
+    uint32_t *ids = malloc(pixels * sizeof *ids);
+    if (!ids) { return command_fail("out of memory"); }
+    int code = open_renderer(&renderer, &block, &config, &r->model, &memory_bytes);
+    int result = code ? 0 : tuile_begin(renderer, &r->view.scene);
+    while (code == 0 && result == 0 && (result = tuile_next(renderer, &tile)) == 1) {
+        for (unsigned y = 0; y < tile.height; y++) {
+            memcpy(ids + (size_t)(tile.y + y) * width + tile.x, tile.bytes + 4u * (size_t)y * tile.width, 4u * (size_t)tile.width);
+        }
+        result = 0;
+    }
+    if (result < 0) { code = command_fail("--ids: %s", tuile_error_text(result)); }
+    if (code == 0 && output_open(&out, name, &r->error) == 0) {
+        for (size_t i = 0; i < pixels; i++) {
+            const uint32_t id = ids[i];
+            (void)fprintf(out.file, "%u%c", id ? tuile_model_source_face(&r->model, id - 1) + 1 : 0, (i + 1) % width ? ' ' : '\n');
+        }
+        if (output_close(&out, &r->error) != 0) { code = command_fail("%s", r->error.text); }
+    } else if (code == 0) {
+        code = command_fail("%s", r->error.text);
+    }
+    free(ids);
+    free(block);
+    return code;
+}
+
+static int print_pick(render_t *r) {
+    tuile_hit_t hit;
+    tuile_config_t config = r->config;
+    config.cluster_vertices = r->model.cluster_vertices_max;
+    const size_t size = TUILE_PICK_BYTES((size_t)config.height, (size_t)config.cluster_vertices);
+    if (r->pick_at[0] != floor(r->pick_at[0]) || r->pick_at[1] != floor(r->pick_at[1]) || r->pick_at[0] >= config.width ||
+        r->pick_at[1] >= config.height) {
+        return command_fail("--pick %g,%g: wants whole pixels within %ux%u", r->pick_at[0], r->pick_at[1], config.width, config.height);
+    }
+    void *block = malloc(size);
+    if (!block) { return command_fail("out of memory"); }
+    const int result = tuile_pick(&r->view.scene, &config, (uint16_t)r->pick_at[0], (uint16_t)r->pick_at[1], block, size, &hit);
+    free(block);
+    if (result < 0) { return command_fail("--pick: %s", tuile_error_text(result)); }
+    if (result == 0) {
+        (void)printf("pick %g,%g: background\n", r->pick_at[0], r->pick_at[1]);
+        return 0;
+    }
+    const double step = ldexp((double)r->model.step.mantissa, r->model.step.exponent);
+    double point[3];
+    for (int i = 0; i < 3; i++) { point[i] = step * (r->model.offset[i] + hit.point[i] / 65536.0); }
+    (void)printf("pick %g,%g: face %u at %.6g,%.6g,%.6g\n", r->pick_at[0], r->pick_at[1], tuile_model_source_face(&r->model, hit.face) + 1,
+                 point[0], point[1], point[2]);
+    return 0;
+}
+
+static void report_frame(const render_t *r, unsigned frame, const char *hash) {
+    const tuile_stats_t *s = &r->stats;
+    const tuile_config_t *c = tuile_config(r->renderer);
+    FILE *f = r->report_file.file;
+    (void)fprintf(f, "%s\n    {\"frame\": %u, \"hash\": \"%s\", \"width\": %u, \"height\": %u, \"tile_width\": %u, \"tile_height\": %u,\n", frame ? "," : "",
+                  frame, hash, c->width, c->height, c->tile_width, c->tile_height);
+    (void)fprintf(f, "     \"faces\": %u, \"clusters\": %u, \"clusters_outside\": %u, \"clusters_facing_away\": %u, \"vertices\": %u,\n", s->faces,
+                  s->clusters, s->clusters_outside, s->clusters_facing_away, s->vertices);
+    (void)fprintf(f,
+                  "     \"faces_tested\": %u, \"faces_back\": %u, \"faces_degenerate\": %u, \"faces_outside\": %u, \"faces_clipped\": %u,\n"
+                  "     \"faces_clipped_away\": %u, \"faces_binned\": %u, \"faces_setup\": %u, \"faces_resumed\": %u,\n",
+                  s->faces_tested, s->faces_back, s->faces_degenerate, s->faces_outside, s->faces_clipped, s->faces_clipped_away,
+                  s->faces_binned, s->faces_setup, s->faces_resumed);
+    (void)fprintf(f,
+                  "     \"passes\": %u, \"tiles\": %u, \"tiles_immediate\": %u, \"size_bytes\": %u, \"least_bytes\": %u, \"peak_bytes\": %u,\n"
+                  "     \"wire_bytes\": %llu, \"wire_ns\": %llu, \"fps_bus\": %.2f}",
+                  s->passes, s->tiles, s->tiles_immediate, s->size_bytes, s->least_bytes, s->peak_bytes, (unsigned long long)r->wire_bytes,
+                  (unsigned long long)r->frame_ns, r->frame_ns ? 1e9 / (double)r->frame_ns : 0.0);
+}
+
+static int draw_frame(render_t *r, unsigned frame) {
+    sim_picture_t picture = {0}, glass = {0};
+    char name[4096], hash[24] = "";
+    view_frame(&r->view, frame);
+    memset(&r->bus.counts, 0, sizeof r->bus.counts);
+    const int result = tuile_stream_frame(r->renderer, &r->view.scene, &r->display, &r->stats);
+    if (result) {
+        const char *detail = r->bus.error.text[0] ? r->bus.error.text : r->chip->fault.text;
+        return command_fail("frame %u: %s%s%s", frame, tuile_stream_error_text(result), detail[0] ? ": " : "", detail);
+    }
+    r->wire_bytes = r->bus.counts.command_bytes + r->bus.counts.data_bytes;
+    r->frame_ns = r->bus.counts.wire_ns + r->bus.counts.gap_ns;
+    r->passes_max = r->stats.passes > r->passes_max ? r->stats.passes : r->passes_max;
+    r->peak_bytes = r->stats.peak_bytes > r->peak_bytes ? r->stats.peak_bytes : r->peak_bytes;
+    if (sim_bus_picture(&r->bus, (unsigned)r->rotate, &picture, &r->error) != 0) { return command_fail("%s", r->error.text); }
+    if (r->chip->glass(r->chip, &glass, &r->error) != 0) { return command_fail("%s", r->error.text); }
+    (void)snprintf(hash, sizeof hash, "%016llx", (unsigned long long)panel_hash(&glass));
+    sim_picture_free(&glass);
+    if (r->hash) { (void)printf("frame %u %s\n", frame, hash); }
+    int code = 0;
+    if (r->out) {
+        frame_name(name, sizeof name, r->out, frame);
+        if (sim_picture_write(&picture, name, &r->error) != 0) { code = command_fail("%s", r->error.text); }
+    }
+    if (code == 0 && r->ids) { code = write_ids(r, frame); }
+    if (code == 0 && r->report) { report_frame(r, frame, hash); }
+    if (r->pictures) {
+        r->pictures[frame] = picture;
+    } else {
+        sim_picture_free(&picture);
+    }
+    return code;
+}
+
+static void progress(unsigned done, unsigned of) {
+    char bar[37];
+    const unsigned filled = done * 36 / of;
+    for (unsigned i = 0; i < 36; i++) { bar[i] = i < filled ? '#' : '.'; }
+    bar[36] = '\0';
+    (void)fprintf(stderr, "\r[%s] %u/%u%s", bar, done, of, done == of ? "\n" : "");
+}
+
+static int run(render_t *r) {
+    int code = set_up(r);
+    if (code) { return code; }
+    if (r->report) {
+        if (output_open(&r->report_file, r->report, &r->error) != 0) { return command_fail("%s", r->error.text); }
+        (void)fprintf(r->report_file.file, "{\"frames\": [");
+    }
+    for (unsigned frame = 0; code == 0 && frame < (unsigned)r->frames; frame++) {
+        code = draw_frame(r, frame);
+        if (code == 0 && r->frames > 1) { progress(frame + 1, (unsigned)r->frames); }
+    }
+    if (code == 0 && r->pick) { code = print_pick(r); }
+    if (code == 0 && r->sheet) {
+        const sim_sheet_config_t sheet = {.margin_px = 4, .half_size = true, .background = {32, 32, 32}};
+        sim_picture_t picture = {0};
+        if (sim_sheet(r->pictures, (uint32_t)r->frames, &sheet, &picture, &r->error) != 0 ||
+            sim_picture_write(&picture, r->sheet, &r->error) != 0) {
+            code = command_fail("%s", r->error.text);
+        }
+        sim_picture_free(&picture);
+    }
+    if (r->report) {
+        if (code) {
+            output_discard(&r->report_file);
+        } else {
+            (void)fprintf(r->report_file.file, "\n]}\n");
+            if (output_close(&r->report_file, &r->error) != 0) { code = command_fail("%s", r->error.text); }
+        }
+    }
+    if (code) { return code; }
+    if (r->out || r->sheet || r->report) {
+        (void)printf("%s: %u faces; memory given %u, least %u, used %u bytes, %u pass%s; %u tiles, %llu bytes on the wire; the bus allows %.1f fps\n",
+                     r->model_path, r->stats.faces, r->stats.size_bytes, r->stats.least_bytes, r->peak_bytes, r->passes_max,
+                     r->passes_max == 1 ? "" : "es", r->stats.tiles, (unsigned long long)r->wire_bytes, 1e9 / (double)r->frame_ns);
+    }
+    return command_finish();
+}
+
+int command_render(int count, char **arguments) {
+    render_t r;
+    memset(&r, 0, sizeof r);
+    int code = parse(&r, count, arguments);
+    if (code < 0) { return command_finish(); }
+    if (code == 0) {
+        code = run(&r);
+        if (r.pictures) {
+            for (long i = 0; i < r.frames; i++) { sim_picture_free(&r.pictures[i]); }
+        }
+        free(r.pictures);
+        if (r.chip) { r.chip->destroy(r.chip); }
+        free(r.block);
+        free(r.bytes);
+    }
+    return code;
+}

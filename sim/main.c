@@ -1,0 +1,61 @@
+/* tuile: the simulator and its tools. */
+#include "commands.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int command_fail(const char *format, ...) {
+    va_list arguments;
+    (void)fflush(stdout);
+    (void)fputs("tuile: ", stderr);
+    va_start(arguments, format);
+    (void)vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    (void)fputc('\n', stderr);
+    return EXIT_FAILURE;
+}
+
+int command_finish(void) {
+    if (fflush(stdout) != 0 || ferror(stdout)) { return command_fail("standard output: %s", strerror(errno)); }
+    return EXIT_SUCCESS;
+}
+
+static const char usage[] =
+    "Usage: tuile COMMAND ...\n"
+    "\n"
+    "  tuile render MODEL [options]       draw a model on a simulated panel, as pictures\n"
+    "  tuile mesh IN -o OUT.c|OUT.tuile   compile a model for flash\n"
+    "  tuile faces SCENE                  the visible face of each pixel of a text scene\n"
+    "  tuile coverage W H < FILE          the pixels of polygons given in 1/16 pixel\n"
+    "\n"
+    "  tuile COMMAND --help               the options of a command\n";
+
+int main(int count, char **arguments) {
+    static const struct {
+        const char *name;
+        int (*run)(int count, char **arguments);
+    } commands[] = {
+        {"render", command_render},
+        {"mesh", command_mesh},
+        {"faces", command_faces},
+        {"coverage", command_coverage},
+    };
+    (void)signal(SIGPIPE, SIG_IGN); /* a closed pipe is reported as a write error */
+    if (count < 2) {
+        (void)fputs(usage, stderr);
+        return EXIT_USAGE;
+    }
+    if (strcmp(arguments[1], "--help") == 0 || strcmp(arguments[1], "-h") == 0 || strcmp(arguments[1], "help") == 0) {
+        (void)fputs(usage, stdout);
+        return command_finish();
+    }
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        if (strcmp(arguments[1], commands[i].name) == 0) { return commands[i].run(count - 2, arguments + 2); }
+    }
+    (void)command_fail("unknown command '%s'; `tuile --help` lists them", arguments[1]);
+    return EXIT_USAGE;
+}

@@ -1,0 +1,86 @@
+/* The model compiler: a file of some format in, the bytes of geometry/model.h out.
+ *
+ *   import (Assimp)  ->  mesh_t  ->  simplify (meshoptimizer)  ->  check and split  ->  quantise  ->  cluster  ->  encode  ->  write
+ */
+#ifndef SIM_MESH_MESH_H
+#define SIM_MESH_MESH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "../error.h"
+
+/* Polygons as imported: doubles, heap memory owned by the struct. */
+typedef struct mesh_face {
+    uint32_t first;    /* in mesh_t.corners */
+    uint32_t count;    /* >= 3 */
+    uint32_t material; /* in mesh_t.materials */
+    uint32_t source;   /* the importer's number of the face, 0-based */
+} mesh_face_t;
+
+typedef struct mesh {
+    double (*positions)[3];
+    size_t position_count;
+    double (*normals)[3]; /* unit; normal_count may be 0: then the compiler makes them */
+    size_t normal_count;
+    uint32_t *corners;        /* index of each corner's position */
+    uint32_t *corner_normals; /* index of each corner's normal; NULL when normal_count is 0 */
+    size_t corner_count;
+    mesh_face_t *faces;
+    size_t face_count;
+    uint8_t (*materials)[3]; /* red, green, blue; at least one */
+    size_t material_count;
+    size_t source_face_count; /* faces that the importer delivered, skipped ones included */
+    size_t skipped_count;     /* degenerate ones among them */
+    size_t loose_count;       /* points and lines in the file: no faces, left out and not numbered */
+} mesh_t;
+
+/* Frees what mesh owns and clears it; a cleared mesh may be freed again. */
+void mesh_free(mesh_t *mesh);
+
+/* Reads a model file through Assimp. Polygons stay polygons, transforms of the node tree are applied, equal positions are
+ * joined, every corner gets a normal, and faces are numbered in the order in which Assimp delivers them.
+ * 0, or -1 and one line in error when the file is missing, empty, damaged, has a vertex that is not finite, an index out of range,
+ * no faces, ... mesh is then cleared. Not for two threads at once: Assimp's log is global. */
+int mesh_import(mesh_t *mesh, const char *path, sim_error_t *error);
+
+/* Triangulates and reduces to at most max_faces triangles (>= 1), which are numbered anew from 0 and get new normals. A mesh
+ * that makes no more triangles than that is left as it is, polygons and all. -1 when it cannot be reduced so far: mesh is
+ * then unchanged. */
+int mesh_simplify(mesh_t *mesh, size_t max_faces, sim_error_t *error);
+
+typedef struct mesh_options {
+    bool keep_order;    /* faces stay in the order given (text scenes: ties are decided by it) */
+    bool keep_planar;   /* take polygons for planar: no test, no split for it; a mesh without normals is then lit flat */
+    double step;        /* quantisation step in model units, offset 0; 0 = the finest that holds the model */
+} mesh_options_t;
+
+typedef struct mesh_report {
+    size_t vertices;   /* of all clusters, so those on borders more than once */
+    size_t faces;
+    size_t polygons;   /* faces with more than three corners among them */
+    size_t non_planar; /* polygons cut into triangles because they are not planar */
+    size_t split;      /* polygons cut for another reason: over 255 corners, or not convex and lit unevenly */
+    size_t skipped;    /* degenerate faces left out, by the importer or because they have no area once quantised */
+    size_t clusters;
+    size_t size_bytes;
+    double quantisation_error; /* largest distance of a vertex from its quantised place, model units; 0 = exact */
+} mesh_report_t;
+
+/* Compiles to the bytes of geometry/model.h; *bytes is malloc'ed, 4-byte aligned. The same mesh gives the same bytes.
+ * options NULL = all zero; report may be NULL. -1 when no face is left, or the model does not fit options->step. */
+int mesh_compile(const mesh_t *mesh, const mesh_options_t *options, uint8_t **bytes, size_t *size_bytes, mesh_report_t *report,
+                 sim_error_t *error);
+
+/* Writes a .tuile or a .c file (by the path's end), whole or not at all: a file of that name is replaced only by a complete one.
+ * A .c file defines one object, `const uint32_t name[]`; name NULL or "" = made from the file's name. -1 when name is no C
+ * identifier, or the file cannot be written. */
+int mesh_write(const uint8_t *bytes, size_t size_bytes, const char *path, const char *name, sim_error_t *error);
+
+/* Loads whatever a user may name: .tuile bytes as they are (known by their first four), anything else through import and compile
+ * (max_faces 0 = all; a .tuile with more faces than that is refused). report may be NULL; of a .tuile it has the counts that the
+ * file tells. *bytes is malloc'ed, 4-byte aligned. */
+int mesh_load(const char *path, size_t max_faces, uint8_t **bytes, size_t *size_bytes, mesh_report_t *report, sim_error_t *error);
+
+#endif

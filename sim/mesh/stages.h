@@ -1,0 +1,126 @@
+/* What the stages of the model compiler hand to one another. Not for users of mesh.h. */
+#ifndef SIM_MESH_STAGES_H
+#define SIM_MESH_STAGES_H
+
+#include <stdlib.h>
+
+#include "../../raster/geometry/model.h"
+#include "mesh.h"
+
+#define MESH_NO_NORMAL UINT32_MAX /* in mesh_t.corner_normals while normals are being made */
+#define MESH_CORNERS_MAX 255u     /* of a compiled face */
+
+__extension__ typedef __int128 mesh_int128_t;
+
+static inline void *mesh_array(size_t count, size_t item_bytes) { return calloc(count ? count : 1, item_bytes); }
+
+/* count items of item_bytes; *capacity grows by doubling. False when memory is short: *array is then as it was. */
+bool mesh_reserve(void *array, size_t *capacity, size_t count, size_t item_bytes);
+
+/* ---- files (check.c) --------------------------------------------------------------------------------------- */
+
+/* The whole file with a NUL behind it, malloc'ed. Missing, a folder, unreadable and empty files are errors. */
+int mesh_read_file(const char *path, char **text, size_t *size_bytes, sim_error_t *error);
+
+/* Finds the damage in OBJ, PLY and OFF files that Assimp lets pass or hangs on: files cut short, numbers that are none or not
+ * finite, indices out of range. text is overwritten. */
+int mesh_check_text(const char *path, char *text, size_t size_bytes, sim_error_t *error);
+
+/* The same for PLY, text and binary (check_ply.c). */
+int mesh_check_ply(const char *path, char *text, size_t size_bytes, sim_error_t *error);
+
+/* ---- normals.c --------------------------------------------------------------------------------------------- */
+
+/* Newell's normal of a polygon, not normalised: twice its area long. */
+void mesh_face_normal(const mesh_t *mesh, const mesh_face_t *face, double normal[3]);
+
+/* Gives a normal to each corner that has none: the mean of the faces around its vertex, weighted by angle, that differ from its
+ * own by less than the crease angle of 60 degrees. flat: the face's own. */
+int mesh_make_normals(mesh_t *mesh, bool flat, sim_error_t *error);
+
+/* ---- palette.c --------------------------------------------------------------------------------------------- */
+
+#define MESH_MATERIALS_MAX 256u
+
+/* At most MESH_MATERIALS_MAX colours for all, in order of first use; index[i] is the one of colours[i]. 0, or -1 without memory. */
+int mesh_palette(const uint8_t (*colours)[3], size_t count, uint8_t (*palette)[3], size_t *palette_count, uint32_t *index);
+
+/* ---- triangulate.c ----------------------------------------------------------------------------------------- */
+
+#define MESH_TRIANGULATE_RANGE (1 << 28) /* |coordinate| at most */
+
+/* Cuts a polygon into at most count - 2 triangles of positive area as seen along its Newell normal, by ear clipping.
+ * triangles[i] are indices into points. Returns their number, 0 when the polygon has no area, -1 without memory. */
+long mesh_triangulate(const int32_t (*points)[3], size_t count, uint32_t (*triangles)[3]);
+
+/* ---- quantise.c: the mesh on its integer grid -------------------------------------------------------------- */
+
+typedef struct solid_vertex {
+    int16_t position[3];
+    int8_t normal[3];
+    uint8_t padding; /* 0: vertices are compared by their bytes */
+} solid_vertex_t;
+
+typedef struct solid_face {
+    uint32_t first, count; /* in solid_t.corners; count 3 ... 255 */
+    uint32_t material, source;
+    bool convex;
+    int64_t normal[3]; /* Newell's, exact: twice the area long */
+    double unit[3];
+} solid_face_t;
+
+typedef struct solid {
+    tuile_scale_t step;
+    double step_value;
+    int32_t offset[3];
+    solid_vertex_t *vertices; /* distinct */
+    uint32_t *places;         /* of each vertex: a number that all vertices at its position share */
+    size_t vertex_count, place_count;
+    uint32_t *corners; /* vertices */
+    size_t corner_count;
+    solid_face_t *faces;
+    size_t face_count;
+    size_t polygons, non_planar, split, skipped;
+    double error; /* model units */
+} solid_t;
+
+void solid_free(solid_t *solid);
+
+/* mesh must have normals. */
+int solid_quantise(solid_t *solid, const mesh_t *mesh, const mesh_options_t *options, sim_error_t *error);
+
+/* ---- bounds.c ---------------------------------------------------------------------------------------------- */
+
+typedef struct bounds_sphere {
+    int16_t centre[3];
+    uint16_t radius; /* rounded up: holds every point */
+} bounds_sphere_t;
+
+typedef struct bounds_cone {
+    int8_t axis[3];
+    uint8_t cutoff; /* see model.h; 255 = never */
+} bounds_cone_t;
+
+/* vertices: indices into solid->vertices, count >= 1. */
+bounds_sphere_t bounds_of_vertices(const solid_t *solid, const uint32_t *vertices, size_t count);
+
+/* faces: indices into solid->faces. -1 without memory. */
+int bounds_of_normals(const solid_t *solid, const uint32_t *faces, size_t count, bounds_cone_t *cone);
+
+/* ---- cluster.c --------------------------------------------------------------------------------------------- */
+
+typedef struct clusters {
+    uint32_t *faces; /* all faces of the solid, cluster by cluster */
+    uint32_t *first; /* count + 1 entries: cluster k has faces[first[k]] ... faces[first[k + 1] - 1] */
+    size_t count;
+} clusters_t;
+
+void clusters_free(clusters_t *clusters);
+int clusters_grow(clusters_t *clusters, const solid_t *solid, bool keep_order, sim_error_t *error);
+
+/* ---- encode.c ---------------------------------------------------------------------------------------------- */
+
+int solid_encode(const solid_t *solid, const clusters_t *clusters, const mesh_t *mesh, uint8_t **bytes, size_t *size_bytes,
+                 size_t *vertex_count, sim_error_t *error);
+
+#endif
