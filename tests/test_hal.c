@@ -25,7 +25,8 @@ typedef struct recorder {
     char log[8192];
     size_t length;
     unsigned calls;
-    int fail_with; /* every call from now on */
+    int fail_with;    /* every call from now on */
+    unsigned fail_at; /* or this one, counted from 1 */
     uint32_t command_clock_hz, pixel_clock_hz;
 } recorder_t;
 
@@ -38,6 +39,10 @@ static void note(recorder_t *recorder, const char *format, ...) {
     va_end(arguments);
     assert_true(length >= 0 && (size_t)length < sizeof recorder->log - recorder->length);
     recorder->length += (size_t)length;
+}
+
+static int record_result(const recorder_t *recorder) {
+    return recorder->calls == recorder->fail_at ? TUILE_HAL_IO : recorder->fail_with;
 }
 
 static int record_clocks(void *context, uint32_t command_clock_hz, uint32_t pixel_clock_hz) {
@@ -57,7 +62,7 @@ static int record_command(void *context, const uint8_t *bytes, size_t low_count,
         note(recorder, "%s%02X", i == 0 ? "" : i == low_count ? "|" : " ", bytes[i]);
     }
     note(recorder, "\n");
-    return recorder->fail_with;
+    return record_result(recorder);
 }
 
 static int record_data(void *context, const uint8_t *bytes, size_t size_bytes) {
@@ -65,7 +70,7 @@ static int record_data(void *context, const uint8_t *bytes, size_t size_bytes) {
 
     recorder->calls++;
     note(recorder, "data %zu: %02X\n", size_bytes, bytes[0]);
-    return recorder->fail_with;
+    return record_result(recorder);
 }
 
 static int record_wait(void *context) {
@@ -73,7 +78,7 @@ static int record_wait(void *context) {
 
     recorder->calls++;
     note(recorder, "wait\n");
-    return recorder->fail_with;
+    return record_result(recorder);
 }
 
 static int record_delay(void *context, uint32_t delay_ms) {
@@ -81,7 +86,7 @@ static int record_delay(void *context, uint32_t delay_ms) {
 
     recorder->calls++;
     note(recorder, "delay %u\n", delay_ms);
-    return recorder->fail_with;
+    return record_result(recorder);
 }
 
 static int record_pin(void *context, tuile_pin_t pin, uint8_t level) {
@@ -89,7 +94,7 @@ static int record_pin(void *context, tuile_pin_t pin, uint8_t level) {
 
     recorder->calls++;
     note(recorder, "%s %u\n", pin == TUILE_PIN_RESET ? "reset" : "backlight", level);
-    return recorder->fail_with;
+    return record_result(recorder);
 }
 
 static tuile_bus_t recording_bus(recorder_t *recorder) {
@@ -542,6 +547,31 @@ static void test_write_wraps_in_window_and_continues(void **state) {
     close_board(&board);
 }
 
+/* With WEMODE = 0 (F6h) what exceeds the window is dropped. */
+static void test_write_stops_at_the_window(void **state) {
+    static const uint8_t interface[] = {0xF6, 0, 0, 0}, column[] = {0x2A, 0, 10, 0, 10}, row[] = {0x2B, 0, 20, 0, 20},
+                         write[] = {0x2C};
+    static const uint8_t two[] = {0, 1, 0, 2};
+    board_t board;
+    tuile_bus_t *bus;
+
+    (void)state;
+    open_board(&board, &(sim_bus_config_t){.blocking = true});
+    start_display(&board, 0, TUILE_WIRE_RGB565);
+    bus = &board.bus.bus;
+    bus->command(bus->context, interface, 1, 4);
+    bus->command(bus->context, column, 1, 5);
+    bus->command(bus->context, row, 1, 5);
+    bus->command(bus->context, write, 1, 1);
+    assert_int_equal(bus->data(bus->context, two, sizeof two), 0);
+    assert_int_equal(sim_dcs_memory(board.chip, 10, 20), 2);
+    bus->command(bus->context, write, 1, 1);
+    assert_int_equal(bus->data(bus->context, two + 2, 2), 0);
+    assert_int_equal(sim_dcs_memory(board.chip, 10, 20), 4);
+    check_clean(&board);
+    close_board(&board);
+}
+
 /* ---- arguments and states ---------------------------------------------------------------------------------- */
 
 static void test_arguments_send_nothing(void **state) {
@@ -777,12 +807,56 @@ static void test_gone_is_final(void **state) {
     /* also when it shows only at the wait for a buffer in flight */
     assert_int_equal(tuile_display_window(&display, 0, 0, 1, 1), 0);
     assert_int_equal(tuile_display_write(&display, (const uint8_t[2]){0}, 2), 0);
-    calls = recorder.calls;
+    forget(&recorder);
     recorder.fail_with = TUILE_HAL_GONE;
     assert_int_equal(tuile_display_resume(&display), TUILE_HAL_GONE);
     recorder.fail_with = 0;
     assert_int_equal(tuile_display_resume(&display), TUILE_HAL_GONE);
-    assert_int_equal(recorder.calls, calls + 1);
+    assert_string_equal(recorder.log, "wait\n");
+}
+
+/* Pauses and pins can fail too, which the simulated board's do not. */
+static void test_fault_at_every_call(void **state) {
+    static const uint8_t pixel[2] = {0};
+    unsigned count = 0;
+
+    (void)state;
+    for (unsigned call = 0; call == 0 || call <= count; call++) {
+        recorder_t recorder;
+        tuile_bus_t bus = recording_bus(&recorder);
+        tuile_display_t display;
+        int result;
+        recorder.fail_at = call;
+        bus.pins = call % 2 ? bus.pins : TUILE_PIN_BIT(TUILE_PIN_BACKLIGHT);
+        if ((result = tuile_display_init(&display, &(tuile_display_config_t){.bus = &bus, .panel = &tuile_ili9341})) == 0 &&
+            (result = tuile_display_window(&display, 0, 0, 1, 1)) == 0 && (result = tuile_display_write(&display, pixel, 2)) == 0 &&
+            (result = tuile_display_present(&display)) == 0 && (result = tuile_display_brightness(&display, 9)) == 0) {
+            result = tuile_display_sleep(&display);
+        }
+        if (call == 0) {
+            assert_int_equal(result, 0);
+            count = recorder.calls;
+            assert_true(count > 30);
+        } else {
+            assert_int_equal(result, TUILE_HAL_IO);
+            assert_int_equal(recorder.calls, call);
+            assert_int_equal(tuile_display_resume(&display), 0);
+        }
+    }
+}
+
+static void test_damaged_sequence(void **state) {
+    static const uint8_t sequences[][4] = {{4, 0xEF, 3, 128}, {1, 0x29, 0, 1}, {1, 0x29, 2, 1}, {65, 0, 0, 0}};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof sequences / sizeof sequences[0]; i++) {
+        recorder_t recorder;
+        tuile_bus_t bus = recording_bus(&recorder);
+        tuile_panel_t panel = tuile_ili9341;
+        tuile_display_t display;
+        panel.on = (tuile_sequence_t){sequences[i], 4};
+        assert_int_equal(tuile_display_init(&display, &(tuile_display_config_t){.bus = &bus, .panel = &panel}), TUILE_HAL_PROTOCOL);
+    }
 }
 
 /* Makes a display and a frame; the one fault must come up by the end of the frame, and stick. */
@@ -1030,8 +1104,13 @@ static const illegal_t illegal_cases[] = {
     {"18-bit pixel cut by a command", "3A:66 ;2C ;+12 34 56 78 9A ;00", "cuts a pixel after 2 of its 3 bytes", false},
     {"pixel over two chunks is legal", "2C ;+12 ;+34 ;29", NULL, false},
     {"continue without a write", "2A:00 00 00 EF ;3C", "without a memory write", false},
+    {"continue in other columns", "2C ;+00 00 ;2A:00 00 00 EF ;3C", "without a memory write", false},
+    {"continue in other rows", "2C ;+00 00 ;2B:00 00 00 EF ;3C", "without a memory write", false},
+    {"continue in another direction", "2C ;+00 00 ;36:88 ;3C", "without a memory write", false},
     {"reserved pixel format", "3A:53", "pixel format 53h is reserved", false},
     {"scrolling", "37:00 01", "not modelled", false},
+    {"no scrolling is legal", "33:00 00 01 40 00 00 ;37:00 00", NULL, false},
+    {"a scrolling area", "33:00 02 01 3E 00 00", "not modelled", false},
     {"partial mode", "12", "not modelled", false},
     {"other byte order", "F6:01 00 20", "not modelled", false},
     {"memory write while asleep", "28 ;10 ;@120 ;2C", "asleep", false},
@@ -1347,6 +1426,7 @@ int main(void) {
         cmocka_unit_test(test_memory_by_hand),
         cmocka_unit_test(test_colours_seen),
         cmocka_unit_test(test_write_wraps_in_window_and_continues),
+        cmocka_unit_test(test_write_stops_at_the_window),
         cmocka_unit_test(test_arguments_send_nothing),
         cmocka_unit_test(test_brightness_and_sleep),
         cmocka_unit_test(test_sleep_is_legal_traffic),
@@ -1356,6 +1436,8 @@ int main(void) {
         cmocka_unit_test(test_first_error_sticks),
         cmocka_unit_test(test_codes_of_a_port_do_not_pass),
         cmocka_unit_test(test_gone_is_final),
+        cmocka_unit_test(test_fault_at_every_call),
+        cmocka_unit_test(test_damaged_sequence),
         cmocka_unit_test(test_fault_at_every_transfer),
         cmocka_unit_test(test_gone_at_every_transfer),
         cmocka_unit_test(test_buffer_in_flight_is_not_ours),

@@ -41,7 +41,7 @@ static bool state_start(tuile_t *t, state_t *state, uint32_t number, int32_t row
         const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
         const int32_t x1 = v1->x - v0->x, y1 = v1->y - v0->y, x2 = v2->x - v0->x, y2 = v2->y - v0->y;
         triangle_start(&state->triangle, v0, v1, v2, x2 * y1 - x1 * y2, row, t->span_kind == SPAN_GOURAUD);
-        state->triangle.size_bytes = sizeof(triangle_t);
+        state->triangle.size_bytes = (sizeof(triangle_t) + 7u) & ~7u;
         state->triangle.material = record->material;
         state->triangle.value = t->span_kind == SPAN_GOURAUD ? 0 : face_value(t, record);
     } else {
