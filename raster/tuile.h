@@ -184,12 +184,13 @@ typedef struct tuile_config {
 /* Constant expressions for the size of the block, in bytes. */
 #define TUILE_FORMAT_BYTES(format) ((format) == TUILE_FACE_IDS ? 4u : 2u)
 #define TUILE_ALIGN8(n) (((n) + 7u) & ~(size_t)7u)
+#define TUILE_ALIGN64(n) (((n) + 63u) & ~(size_t)63u)
 #define TUILE_STATE_BYTES 1024u /* the renderer itself: an upper bound, asserted */
 #define TUILE_CLIP_BYTES 512u   /* room for one clipped face */
 /* State, tile buffers, their depth, one shading ramp and the table of tile rows. */
 #define TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers)                                                              \
-    (TUILE_STATE_BYTES + TUILE_ALIGN8(2u * (tile_w) * (tile_h)) +                                                               \
-     (buffers)*TUILE_ALIGN8((size_t)TUILE_FORMAT_BYTES(format) * (tile_w) * (tile_h)) + 128u +                                  \
+    (TUILE_STATE_BYTES + TUILE_ALIGN64(2u * (tile_w) * (tile_h)) +                                                              \
+     (buffers)*TUILE_ALIGN64((size_t)TUILE_FORMAT_BYTES(format) * (tile_w) * (tile_h)) + 128u +                                  \
      TUILE_ALIGN8(2u * (((height) + (tile_h)-1u) / (tile_h))))
 /* The least block that draws any scene whose clusters have at most cluster_vertices vertices. */
 #define TUILE_LEAST_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices)                                            \

@@ -52,7 +52,7 @@ typedef struct polygon {
     uint16_t size_bytes; /* as in triangle_t */
     uint16_t record;
     int16_t row, row_end, left, right;
-    uint8_t material, chain_count; /* chain_count 0: too many */
+    uint8_t chain_count; /* 0: too many */
     uint32_t value;
     /* Depth at the centre of pixel (0, row) and its gradients, Q.16, and the range of the face: a polygon's corners need not lie
      * in one plane after snapping, so depth is clamped to the range. */
@@ -61,7 +61,7 @@ typedef struct polygon {
     polygon_chain_t chains[POLYGON_CHAINS];
 } polygon_t;
 
-/* Sets a face up from first_row on; false when it covers no pixel row there. Leaves record, material and value alone. */
+/* Sets a face up from first_row on; false when it covers no pixel row there. Leaves record and value alone. */
 bool polygon_start(polygon_t *polygon, const polygon_ring_t *ring, int32_t first_row);
 
 /* Fills down to the tile's bottom. kind: SPAN_FLAT or SPAN_IDS. */

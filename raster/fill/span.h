@@ -19,45 +19,41 @@ typedef struct raster_tile {
 
 typedef enum span_kind { SPAN_FLAT, SPAN_GOURAUD, SPAN_IDS } span_kind_t;
 
-TUILE_INLINE bool span_wins(uint32_t depth, uint16_t stored, bool last) { return last ? depth >= stored : depth > stored; }
+TUILE_INLINE bool span_wins(uint16_t depth, uint16_t stored, bool last) { return last ? depth >= stored : depth > stored; }
 
 TUILE_INLINE void span_flat(uint16_t *depth, uint16_t *colour, int32_t count, uint32_t z, uint32_t dz, uint16_t value, bool last) {
-    do {
-        if (span_wins(z >> 16, *depth, last)) {
-            *depth = (uint16_t)(z >> 16);
-            *colour = value;
+    for (int32_t i = 0; i < count; i++) {
+        const uint16_t near = (uint16_t)(z >> 16);
+        if (span_wins(near, depth[i], last)) {
+            depth[i] = near;
+            colour[i] = value;
         }
         z += dz;
-        depth++;
-        colour++;
-    } while (--count);
+    }
 }
 
-/* light: Q8.16, always within 0 ... 255.99; ramp: 64 colours. */
-TUILE_INLINE void span_gouraud(uint16_t *depth, uint16_t *colour, int32_t count, uint32_t z, uint32_t dz, uint32_t light,
-                               uint32_t dlight, const uint16_t *ramp, bool last) {
-    do {
-        if (span_wins(z >> 16, *depth, last)) {
-            *depth = (uint16_t)(z >> 16);
-            *colour = ramp[light >> 18];
+/* shade: depth Q16.16 in the upper half, light Q8.24 in the lower; ramp: 64 colours. */
+TUILE_INLINE void span_gouraud(uint16_t *depth, uint16_t *colour, int32_t count, uint64_t shade, uint64_t dx, const uint16_t *ramp,
+                               bool last) {
+    for (int32_t i = 0; i < count; i++) {
+        const uint16_t z = (uint16_t)(shade >> 48);
+        if (span_wins(z, depth[i], last)) {
+            depth[i] = z;
+            colour[i] = ramp[(uint32_t)shade >> 26];
         }
-        z += dz;
-        light += dlight;
-        depth++;
-        colour++;
-    } while (--count);
+        shade += dx;
+    }
 }
 
 TUILE_INLINE void span_ids(uint16_t *depth, uint32_t *ids, int32_t count, uint32_t z, uint32_t dz, uint32_t id, bool last) {
-    do {
-        if (span_wins(z >> 16, *depth, last)) {
-            *depth = (uint16_t)(z >> 16);
-            *ids = id;
+    for (int32_t i = 0; i < count; i++) {
+        const uint16_t near = (uint16_t)(z >> 16);
+        if (span_wins(near, depth[i], last)) {
+            depth[i] = near;
+            ids[i] = id;
         }
         z += dz;
-        depth++;
-        ids++;
-    } while (--count);
+    }
 }
 
 #endif

@@ -19,6 +19,13 @@ TUILE_INLINE int32_t signed_area(const vertex_t *a, const vertex_t *b, const ver
     return x2 * y1 - x1 * y2;
 }
 
+/* Vertices that still fit below the records. */
+TUILE_INLINE uint32_t slots_left(const tuile_t *t) {
+    const uint8_t *low = t->arena_end - (size_t)t->record_count * t->record_bytes;
+    const uint32_t limit = (uint32_t)((size_t)(low - (uint8_t *)t->vertices) / sizeof(vertex_t));
+    return (limit < t->vertex_limit ? limit : t->vertex_limit) - t->vertex_count;
+}
+
 /* A slot for one record, NULL when the arena is full. */
 TUILE_INLINE record_t *record_claim(tuile_t *t) {
     record_t *record = frame_record(t, t->record_count);
@@ -120,7 +127,7 @@ static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *b
     }
     /* An area of 0 may still cover pixels (a bow tie), so only a box without area is degenerate, and that was dropped above. */
     const uint32_t slots = 1 + (ring->corners ? (ring->count + 7) / 8 : 0);
-    if (t->vertex_count + slots > t->vertex_limit) { return BIN_FULL; }
+    if (slots > slots_left(t)) { return BIN_FULL; }
     polygon_slot_t *slot = (polygon_slot_t *)(void *)(t->vertices + t->vertex_count);
     t->vertex_count += slots;
     record_t *record = record_claim(t);
@@ -143,7 +150,7 @@ static TUILE_NOINLINE int bin_clipped(tuile_t *t, const cluster_t *cluster, cons
     const clip_face_t face = {cluster->positions, cluster->vertices, corners, count};
     vertex_t *out = t->vertices + t->vertex_count;
     const uint32_t mark = t->vertex_count;
-    const int left = clip_polygon(&t->transform, &face, out, t->vertex_limit - t->vertex_count);
+    const int left = clip_polygon(&t->transform, &face, out, slots_left(t));
     int result = BIN_OK;
 
     if (left < 0) { return BIN_FULL; }
@@ -189,7 +196,7 @@ static int bin_triangles(tuile_t *t, const cluster_t *cluster, unsigned count) {
 /* A triangle in a cluster whose vertices may lie too far apart for a record: it gets copies that stand together. */
 static int bin_far_triangle(tuile_t *t, const cluster_t *cluster, const uint8_t corners[3], uint8_t material, const int8_t *normal,
                             uint32_t id) {
-    if (t->vertex_count + 3 > t->vertex_limit) { return BIN_FULL; }
+    if (slots_left(t) < 3) { return BIN_FULL; }
     vertex_t *v = t->vertices + t->vertex_count;
     const uint32_t binned = t->record_count;
     for (unsigned i = 0; i < 3; i++) { v[i] = cluster->vertices[corners[i]]; }
@@ -252,7 +259,7 @@ static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
         t->stats.clusters_facing_away++;
         return BIN_OK;
     }
-    if (t->vertex_count + vertices > t->vertex_limit) { return BIN_FULL; }
+    if (vertices > slots_left(t)) { return BIN_FULL; }
     const uint32_t mark = t->vertex_count, binned = t->record_count;
     const cluster_t cluster = {
         bytes,

@@ -38,15 +38,11 @@ const uint8_t *frame_material(const tuile_t *t, uint32_t material) {
     return scene->background;
 }
 
-const uint16_t *frame_ramp(tuile_t *t, uint32_t material) {
-    const uint32_t slot = material < t->ramp_count ? material : material % t->ramp_count;
+TUILE_NOINLINE void frame_ramp_make(tuile_t *t, uint32_t material, uint32_t slot) {
     uint16_t *ramp = t->ramps + slot * RAMP_COLOURS;
-    if (TUILE_UNLIKELY(t->ramp_tags[slot] != (int16_t)material)) {
-        const uint8_t *colour = frame_material(t, material);
-        for (uint32_t i = 0; i < RAMP_COLOURS; i++) { ramp[i] = resolve_lit(t->config.format, colour, (i * 255u + 31u) / 63u); }
-        t->ramp_tags[slot] = (int16_t)material;
-    }
-    return ramp;
+    const uint8_t *colour = frame_material(t, material);
+    for (uint32_t i = 0; i < RAMP_COLOURS; i++) { ramp[i] = resolve_lit(t->config.format, colour, (i * 255u + 31u) / 63u); }
+    t->ramp_tags[slot] = (int16_t)material;
 }
 
 /* ---- init ---- */
@@ -98,10 +94,10 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     t->tile_rows = (uint16_t)((c.height + c.tile_height - 1) / c.tile_height);
     t->tile_bytes = (uint32_t)(TUILE_FORMAT_BYTES(c.format) * pixels);
     t->depth = (uint16_t *)(void *)at;
-    at += TUILE_ALIGN8(2u * pixels);
+    at += TUILE_ALIGN64(2u * pixels);
     for (unsigned b = 0; b < c.buffers; b++) {
         t->colours[b] = at;
-        at += TUILE_ALIGN8((size_t)t->tile_bytes);
+        at += TUILE_ALIGN64((size_t)t->tile_bytes);
     }
     t->buckets = (uint16_t *)(void *)at;
     at += TUILE_ALIGN8(2u * (size_t)t->tile_rows);

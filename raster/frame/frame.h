@@ -125,7 +125,13 @@ uint16_t resolve_lit(uint8_t format, const uint8_t colour[3], uint32_t light);
 /* The colour of a material, counted through the models of the scene. */
 const uint8_t *frame_material(const tuile_t *t, uint32_t material);
 
-/* 64 colours from black to full light. */
-const uint16_t *frame_ramp(tuile_t *t, uint32_t material);
+/* 64 colours from black to full light: made when they are first wanted, again when another material took their place. */
+void frame_ramp_make(tuile_t *t, uint32_t material, uint32_t slot);
+
+TUILE_INLINE const uint16_t *frame_ramp(tuile_t *t, uint32_t material) {
+    const uint32_t slot = TUILE_LIKELY(material < t->ramp_count) ? material : material % t->ramp_count;
+    if (TUILE_UNLIKELY(t->ramp_tags[slot] != (int16_t)material)) { frame_ramp_make(t, material, slot); }
+    return t->ramps + slot * RAMP_COLOURS;
+}
 
 #endif

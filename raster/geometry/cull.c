@@ -3,7 +3,7 @@
  * A face with outward normal n through p faces away from the eye e when dot(p - e, n) >= 0. Let all normals of a cluster lie within
  * an angle alpha < 90 degrees of the axis a, and all points within radius r of the centre c. For v = c - e the direction v leaves
  * every such n on the far side when angle(v, a) <= 90 - alpha, that is dot(v, a) >= sin(alpha) |v| |a|; and moving from c to any point
- * of the sphere changes dot(v, n) by r at most, which the term r |a| covers. The cutoff in the model is sin(alpha), rounded up.
+ * of the sphere changes dot(v, n) by r at most, which the term r |a| covers, with 128 for |a| there. The cutoff in the model is sin(alpha), rounded up.
  *
  * In integers: dot - r |a| >= (cutoff / 254) |a| |v|, both sides squared once the left one is known to be positive. |v| has 22 bits
  * a component, so the squares stay below 2^62.
@@ -11,6 +11,8 @@
 #include "cull.h"
 
 #include "model.h"
+
+#define AXIS_LENGTH_MAX 128 /* axes are about 127 long; one that were longer would cull nothing */
 
 bool cull_outside(const transform_t *transform, const uint8_t *cluster) {
     const int32_t x = model_i16(cluster + CLUSTER_AT_CENTRE), y = model_i16(cluster + CLUSTER_AT_CENTRE + 2);
@@ -40,12 +42,11 @@ bool cull_faces_away(const transform_t *transform, const uint8_t *cluster) {
         axis_squares += (uint32_t)(axis * axis);
     }
     if (transform->perspective) {
-        /* |axis| <= 221; what the shifts cut off is below 2 in each component and in the radius. */
+        /* What the shifts cut off is below 2 in each component and in the radius. */
         const int64_t radius = (model_u16(cluster + CLUSTER_AT_RADIUS) >> transform->eye_shift) + (transform->eye_shift ? 8 : 1);
-        const uint32_t axis_length = fixed_sqrt64(axis_squares) + 1;
-        dot -= radius * axis_length;
+        dot -= radius * AXIS_LENGTH_MAX;
     }
-    if (dot < 0) { return false; }
+    if (dot < 0 || axis_squares > AXIS_LENGTH_MAX * AXIS_LENGTH_MAX) { return false; }
     const uint64_t scaled = ((uint64_t)cutoff * cutoff * axis_squares + 64515u) / 64516u; /* (cutoff / 254)^2 |a|^2, rounded up */
     return (uint64_t)(dot * dot) >= scaled * squares;
 }

@@ -65,7 +65,7 @@ enum {
 enum {
     CLUSTER_AT_CENTRE = 0,      /* 3 x i16: sphere around its vertices */
     CLUSTER_AT_RADIUS = 6,      /* u16, rounded up */
-    CLUSTER_AT_AXIS = 8,        /* 3 x i8: mean direction of the face normals, any length up to 127 */
+    CLUSTER_AT_AXIS = 8,        /* 3 x i8: mean direction of the face normals, 120 ... 128 long */
     CLUSTER_AT_CUTOFF = 11,     /* u8: the cluster faces away from an eye e when
                                    dot(centre - e, axis) - radius * |axis| >= (cutoff / 254) * |axis| * |centre - e|
                                    (with |axis| rounded up); 255 = never. See geometry/cull.c. */

@@ -28,26 +28,25 @@ static polygon_ring_t record_ring(const tuile_t *t, const record_t *record) {
     return (polygon_ring_t){t->vertices + slot->base, slot->listed ? (const uint8_t *)(slot + 1) : NULL, NULL, slot->count};
 }
 
+/* Colour, material of the ramp, or id. */
 static uint32_t face_value(const tuile_t *t, const record_t *record) {
-    if (t->record_bytes == sizeof(record_id_t)) { return frame_record_id(record); }
+    if (t->span_kind == SPAN_IDS) { return frame_record_id(record); }
+    if (t->span_kind == SPAN_GOURAUD && is_triangle(record)) { return record->material; }
     return resolve_lit(t->config.format, frame_material(t, record->material), record->light);
 }
 
 /* False when the face covers no row from `row` on. */
-static bool state_start(tuile_t *t, state_t *state, uint32_t number, int32_t row) {
-    const record_t *record = frame_record(t, number);
+TUILE_INLINE bool state_start(tuile_t *t, state_t *state, const record_t *record, uint32_t number, int32_t row) {
     t->stats.faces_setup++;
-    if (is_triangle(record)) {
+    if (TUILE_LIKELY(is_triangle(record))) {
         const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
         const int32_t x1 = v1->x - v0->x, y1 = v1->y - v0->y, x2 = v2->x - v0->x, y2 = v2->y - v0->y;
         triangle_start(&state->triangle, v0, v1, v2, x2 * y1 - x1 * y2, row, t->span_kind == SPAN_GOURAUD);
         state->triangle.size_bytes = (sizeof(triangle_t) + 7u) & ~7u;
-        state->triangle.material = record->material;
-        state->triangle.value = t->span_kind == SPAN_GOURAUD ? 0 : face_value(t, record);
+        state->triangle.value = face_value(t, record);
     } else {
         const polygon_ring_t ring = record_ring(t, record);
         if (!polygon_start(&state->polygon, &ring, row)) { return false; }
-        state->polygon.material = record->material;
         state->polygon.value = face_value(t, record);
         state->polygon.size_bytes = (uint16_t)((state->polygon.size_bytes + 7u) & ~7u);
     }
@@ -56,12 +55,11 @@ static bool state_start(tuile_t *t, state_t *state, uint32_t number, int32_t row
 }
 
 /* Draws what of the face lies in the tile. True when the face reaches below it. */
-static bool state_fill(tuile_t *t, state_t *state) {
-    const record_t *record = frame_record(t, state->head.record);
+TUILE_INLINE bool state_fill(tuile_t *t, state_t *state, const record_t *record) {
     const bool last = t->config.tie == TUILE_TIE_LAST;
-    if (is_triangle(record)) {
+    if (TUILE_LIKELY(is_triangle(record))) {
         triangle_t *triangle = &state->triangle;
-        triangle_fill(triangle, &t->tile, t->span_kind, last, t->span_kind == SPAN_GOURAUD ? frame_ramp(t, triangle->material) : NULL);
+        triangle_fill(triangle, &t->tile, t->span_kind, last, t->span_kind == SPAN_GOURAUD ? frame_ramp(t, triangle->value) : NULL);
         return triangle->row < triangle->row_end;
     }
     const polygon_ring_t ring = record_ring(t, record);
@@ -69,7 +67,7 @@ static bool state_fill(tuile_t *t, state_t *state) {
     return state->polygon.row < state->polygon.row_end;
 }
 
-static bool state_skip(tuile_t *t, state_t *state, int32_t row) {
+static bool state_skip(const tuile_t *t, state_t *state, int32_t row) {
     const record_t *record = frame_record(t, state->head.record);
     if (is_triangle(record)) {
         triangle_skip(&state->triangle, row);
@@ -164,20 +162,21 @@ static void walk_keep(tuile_t *t, walk_t *walk, const state_t *state) {
     t->stats.faces_resumed++;
 }
 
-/* The next state in order, set up in `local` or lying in the old stream; NULL at the end. A state stays where it is until the next
- * call, since the new stream never overtakes the old one. */
-static state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_t row) {
+/* The next state in order, set up in `local` or lying in the old stream, and its record; NULL at the end. A state stays where it is
+ * until the next call, since the new stream never overtakes the old one. */
+TUILE_INLINE state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_t row, const record_t **record) {
     for (;;) {
-        const bool more = walk->old < walk->old_end;
         state_t *carried = (state_t *)(void *)walk->old;
-        if (walk->list != RECORD_NONE && (!more || walk->list - 1u < carried->head.record)) {
+        if (walk->list != RECORD_NONE && (walk->old == walk->old_end || walk->list - 1u < carried->head.record)) {
             const uint32_t number = walk->list - 1u;
-            walk->list = frame_record(t, number)->next;
-            if (state_start(t, local, number, row)) { return local; }
+            *record = frame_record(t, number);
+            walk->list = (*record)->next;
+            if (state_start(t, local, *record, number, row)) { return local; }
             continue;
         }
-        if (!more) { return NULL; }
+        if (walk->old == walk->old_end) { return NULL; }
         walk->old += carried->head.size_bytes;
+        *record = frame_record(t, carried->head.record);
         return carried;
     }
 }
@@ -186,9 +185,10 @@ static state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_t row)
 static void row_draw(tuile_t *t, int32_t top) {
     walk_t walk;
     state_t local, *state;
+    const record_t *record;
     walk_begin(t, &walk);
-    while ((state = walk_next(t, &walk, &local, top)) != NULL) {
-        if (state_fill(t, state)) { walk_keep(t, &walk, state); }
+    while ((state = walk_next(t, &walk, &local, top, &record)) != NULL) {
+        if (state_fill(t, state, record)) { walk_keep(t, &walk, state); }
     }
     walk_end(t, &walk);
 }
@@ -197,8 +197,9 @@ static void row_draw(tuile_t *t, int32_t top) {
 static void row_pass_by(tuile_t *t, int32_t top, int32_t bottom) {
     walk_t walk;
     state_t local, *state;
+    const record_t *record;
     walk_begin(t, &walk);
-    while ((state = walk_next(t, &walk, &local, top)) != NULL) {
+    while ((state = walk_next(t, &walk, &local, top, &record)) != NULL) {
         if (state_skip(t, state, bottom)) { walk_keep(t, &walk, state); }
     }
     walk_end(t, &walk);
@@ -208,8 +209,9 @@ static void row_pass_by(tuile_t *t, int32_t top, int32_t bottom) {
 static void row_gather(tuile_t *t, int32_t top) {
     walk_t walk;
     state_t local, *state;
+    const record_t *record;
     walk_begin(t, &walk);
-    while ((state = walk_next(t, &walk, &local, top)) != NULL) { walk_keep(t, &walk, state); }
+    while ((state = walk_next(t, &walk, &local, top, &record)) != NULL) { walk_keep(t, &walk, state); }
     walk_end(t, &walk);
 }
 
@@ -222,14 +224,15 @@ static void column_draw(tuile_t *t, int32_t top) {
         const state_t *carried = (const state_t *)(const void *)at;
         if (list != RECORD_NONE && (at >= t->stream_end || list - 1u < carried->head.record)) {
             const uint32_t number = list - 1u;
-            list = frame_record(t, number)->next;
-            if (state_start(t, &local, number, top) && state_in_columns(t, &local)) { (void)state_fill(t, &local); }
+            const record_t *record = frame_record(t, number);
+            list = record->next;
+            if (state_start(t, &local, record, number, top) && state_in_columns(t, &local)) { (void)state_fill(t, &local, record); }
             continue;
         }
         at += carried->head.size_bytes;
         if (state_in_columns(t, carried)) {
             memcpy(&local, carried, carried->head.size_bytes);
-            (void)state_fill(t, &local);
+            (void)state_fill(t, &local, frame_record(t, carried->head.record));
         }
     }
 }
@@ -271,20 +274,32 @@ static int32_t row_bottom(const tuile_t *t, uint16_t row) {
     return bottom < t->config.height ? bottom : t->config.height;
 }
 
+/* 64 bytes at a time; size_bytes is rounded up to that, which the buffers have room for (TUILE_ALIGN64). */
+static void fill_words(void *bytes, uint32_t word, size_t size_bytes) {
+    typedef struct block {
+        uint32_t word[4];
+    } block_t;
+    const block_t block = {{word, word, word, word}};
+    block_t *at = bytes;
+    for (size_t left = (size_bytes + 63) / 64; left; left--, at += 4) {
+        at[0] = block;
+        at[1] = block;
+        at[2] = block;
+        at[3] = block;
+    }
+}
+
 void zbuffer_clear(tuile_t *t) {
     const size_t pixels = (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top);
-    memset(t->tile.depth, 0, pixels * sizeof(uint16_t));
-    if (t->config.format == TUILE_FACE_IDS) {
-        memset(t->tile.colour, 0, pixels * sizeof(uint32_t));
-    } else {
-        uint16_t *colour = t->tile.colour;
-        for (size_t i = 0; i < pixels; i++) { colour[i] = t->background; }
-    }
+    const bool ids = t->config.format == TUILE_FACE_IDS;
+    fill_words(t->tile.depth, 0, pixels * sizeof(uint16_t));
+    fill_words(t->tile.colour, ids ? 0 : t->background * 0x10001u, pixels * (ids ? sizeof(uint32_t) : sizeof(uint16_t)));
 }
 
 void zbuffer_draw_record(tuile_t *t, uint32_t number) {
     state_t local;
-    if (state_start(t, &local, number, t->tile.top) && state_in_columns(t, &local)) { (void)state_fill(t, &local); }
+    const record_t *record = frame_record(t, number);
+    if (state_start(t, &local, record, number, t->tile.top) && state_in_columns(t, &local)) { (void)state_fill(t, &local, record); }
 }
 
 void zbuffer_draw_tile(tuile_t *t, uint16_t row, uint16_t column) {

@@ -36,7 +36,10 @@ int mesh_read_file(const char *path, char **text, size_t *size_bytes, sim_error_
         got = room ? fread(*text + used, 1, 65536, file) : 0;
         used += got;
     } while (got);
-    const char *trouble = ferror(file) ? strerror(errno) : !room ? "out of memory" : used == 0 ? "is empty; export it again" : NULL;
+    const char *trouble = ferror(file) ? strerror(errno)
+                          : !room      ? "out of memory"
+                          : used == 0  ? "is empty; export it again"
+                                       : NULL;
     (void)fclose(file);
     if (trouble) {
         free(*text);
@@ -138,8 +141,8 @@ static bool is_keyword(const char *line, const char *word) {
 static int check_obj_index(const char *path, const lines_t *lines, const char *what, long long index, long long so_far,
                            long long in_all, sim_error_t *error) {
     if (index == 0 || index > in_all || index < -so_far) {
-        return sim_fail(error, "%s:%zu: the face asks for %s %lld, but there are %lld; repair the line or export the file again", path,
-                        lines->number, what, index, index < 0 ? so_far : in_all);
+        return sim_fail(error, "%s:%zu: the face asks for %s %lld, but there are %lld; repair the line or export the file again",
+                        path, lines->number, what, index, index < 0 ? so_far : in_all);
     }
     return 0;
 }
@@ -159,7 +162,8 @@ static int check_obj_face(const char *path, const lines_t *lines, char *p, const
             char *after;
             long long index = strtoll(p, &after, 10);
             if (after != p) {
-                if (kinds[kind].used && check_obj_index(path, lines, kinds[kind].name, index, kinds[kind].so_far, kinds[kind].in_all, error)) {
+                if (kinds[kind].used &&
+                    check_obj_index(path, lines, kinds[kind].name, index, kinds[kind].so_far, kinds[kind].in_all, error)) {
                     return -1;
                 }
             } else if (kind == 0) {
@@ -225,7 +229,8 @@ static char *next_off_line(lines_t *lines) {
 static int check_off(const char *path, char *text, size_t size_bytes, sim_error_t *error) {
     lines_t lines = {.at = text, .end = text + size_bytes};
     char *line = next_off_line(&lines);
-    if (!line || strchr("0123456789", *line) || memchr(line, '4', strcspn(line, " \t")) || memchr(line, 'n', strcspn(line, " \t"))) {
+    if (!line || strchr("0123456789", *line) || memchr(line, '4', strcspn(line, " \t")) ||
+        memchr(line, 'n', strcspn(line, " \t"))) {
         return 0; /* without its keyword, or in more dimensions: Assimp's to judge */
     }
     line = skip_blanks(line + strcspn(line, " \t"));
@@ -235,7 +240,8 @@ static int check_off(const char *path, char *text, size_t size_bytes, sim_error_
     char *after = line;
     long long counts[2] = {-1, -1};
     for (int i = 0; line && i < 2; i++) {
-        counts[i] = strtoll(line, &after, 10);
+        long long count = strtoll(line, &after, 10);
+        counts[i] = after == line ? -1 : count;
         line = after;
     }
     if (counts[0] < 0 || counts[1] < 0) {
@@ -244,8 +250,9 @@ static int check_off(const char *path, char *text, size_t size_bytes, sim_error_
     for (long long i = 0; i < counts[0] + counts[1]; i++) {
         line = next_off_line(&lines);
         if (!line) {
-            return sim_fail(error, "%s: cut short: the header promises %lld vertices and %lld faces, %lld lines are there; export it again",
-                            path, counts[0], counts[1], i);
+            return sim_fail(
+                error, "%s: cut short: the header promises %lld vertices and %lld faces, %lld lines are there; export it again",
+                path, counts[0], counts[1], i);
         }
         if (i < counts[0]) {
             if (check_point(path, &lines, line, (size_t)i, error)) {
@@ -258,7 +265,8 @@ static int check_off(const char *path, char *text, size_t size_bytes, sim_error_
             line = after;
             long long index = strtoll(line, &after, 10);
             if (after == line || index < 0 || index >= counts[0]) {
-                return sim_fail(error, "%s:%zu: face %lld has a corner that is missing or not one of the %lld vertices; export it again",
+                return sim_fail(error,
+                                "%s:%zu: face %lld has a corner that is missing or not one of the %lld vertices; export it again",
                                 path, lines.number, i - counts[0], counts[0]);
             }
         }

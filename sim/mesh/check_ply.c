@@ -11,7 +11,7 @@ enum { PLY_TEXT, PLY_LITTLE, PLY_BIG };
 #define PLY_ELEMENTS 16
 
 typedef struct ply_property {
-    char role;           /* 'x', 'y', 'z': of a vertex; 'i': the indices of a face; 0: not looked at */
+    char role;             /* 'x', 'y', 'z': of a vertex; 'i': the indices of a face; 0: not looked at */
     char type, count_type; /* as in type_of; count_type 0 = no list */
 } ply_property_t;
 
@@ -37,8 +37,8 @@ static char type_of(const char *name) {
     static const struct {
         const char *name;
         char type;
-    } types[] = {{"char", 'b'},   {"int8", 'b'},   {"uchar", 'B'},  {"uint8", 'B'}, {"short", 'h'},   {"int16", 'h'},
-                 {"ushort", 'H'}, {"uint16", 'H'}, {"int", 'w'},    {"int32", 'w'}, {"uint", 'W'},    {"uint32", 'W'},
+    } types[] = {{"char", 'b'},   {"int8", 'b'},    {"uchar", 'B'},  {"uint8", 'B'},  {"short", 'h'}, {"int16", 'h'},
+                 {"ushort", 'H'}, {"uint16", 'H'},  {"int", 'w'},    {"int32", 'w'},  {"uint", 'W'},  {"uint32", 'W'},
                  {"float", 'f'},  {"float32", 'f'}, {"double", 'd'}, {"float64", 'd'}};
     for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
         if (!strcmp(types[i].name, name)) {
@@ -104,7 +104,8 @@ static int read_property(ply_t *ply, const char *words, sim_error_t *error) {
     if (!strcmp(element->name, "vertex") && !property.count_type && name[0] >= 'x' && name[0] <= 'z' && !name[1]) {
         property.role = name[0];
     }
-    if (!strcmp(element->name, "face") && property.count_type && (!strcmp(name, "vertex_indices") || !strcmp(name, "vertex_index"))) {
+    if (!strcmp(element->name, "face") && property.count_type &&
+        (!strcmp(name, "vertex_indices") || !strcmp(name, "vertex_index"))) {
         property.role = 'i';
     }
     ply->properties[ply->property_count++] = property;
@@ -161,7 +162,8 @@ static int check_list(ply_t *ply, const ply_element_t *element, const ply_proper
             return cut_short(ply, element, item, error);
         }
         if (property->role == 'i' && !(index >= 0 && index < (double)ply->vertices)) {
-            return sim_fail(error, "%s: face %llu asks for vertex %.0f, but there are %llu (from 0); repair it or export it again",
+            return sim_fail(error,
+                            "%s: face %llu asks for vertex %.0f, but there are %llu (from 0); repair it or export it again",
                             ply->path, item, index, ply->vertices);
         }
     }

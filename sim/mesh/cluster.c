@@ -6,10 +6,10 @@
  *     1 - (1 - sin(alpha) - r / D) / 2        alpha: half angle of its normals, r: its radius, D: distance of the eye
  *
  * from the test in bounds.c, so flat and small clusters are cheap, and large ones save vertices on their borders. Every
- * face begins as a cluster; the two neighbours whose union saves most are joined, again and again. Then faces on borders change sides
- * where that pays. On an organic model of 5856 triangles, seen from eight sides, that costs 13 % less than the best that
- * meshoptimizer's meshlets, grown one after another from a seed, do for any size and cone weight. Ranking by the saving relative to
- * what the two cost, which makes clusters more alike in size, was tried and was 3 % worse.
+ * face begins as a cluster; the two neighbours whose union saves most are joined, again and again. Then faces on borders change
+ * sides where that pays. On an organic model of 5856 triangles, seen from eight sides, that costs 13 % less than the best that
+ * meshoptimizer's meshlets, grown one after another from a seed, do for any size and cone weight. Ranking by the saving relative
+ * to what the two cost, which makes clusters more alike in size, was tried and was no better.
  */
 #include "stages.h"
 
@@ -109,7 +109,8 @@ static double cost_of(grower_t *g, const group_t *a, const group_t *b, uint32_t 
         for (size_t i = 0; lists[l] && i < lists[l]->face_count; i++) {
             const double *unit = g->solid->faces[lists[l]->faces[i]].unit;
             if (lists[l]->faces[i] != left_out) {
-                cosine = fmin(cosine, (unit[0] * tally.sum[0] + unit[1] * tally.sum[1] + unit[2] * tally.sum[2]) / fmax(length, 1e-9));
+                cosine =
+                    fmin(cosine, (unit[0] * tally.sum[0] + unit[1] * tally.sum[1] + unit[2] * tally.sum[2]) / fmax(length, 1e-9));
             }
         }
     }
@@ -250,74 +251,27 @@ static void merge_all(grower_t *g) {
 
 /* ---- neighbours ---------------------------------------------------------------------------------------------- */
 
-typedef struct keyed {
-    uint64_t key;
-    uint32_t item;
-} keyed_t;
-
-static int by_key(const void *x, const void *y) {
-    const keyed_t *a = x, *b = y;
-    if (a->key != b->key) {
-        return a->key < b->key ? -1 : 1;
-    }
-    return (a->item > b->item) - (a->item < b->item);
-}
-
 static bool link_by_edges(grower_t *g) {
-    const solid_t *solid = g->solid;
-    keyed_t *edges = mesh_array(solid->corner_count, sizeof *edges);
-    if (!edges) {
-        return false;
+    uint32_t(*pairs)[2];
+    long count = solid_neighbours(g->solid, &pairs);
+    for (long i = 0; i < count; i++) {
+        link_groups(g, pairs[i][0], pairs[i][1]);
     }
-    for (size_t f = 0; f < solid->face_count; f++) {
-        const solid_face_t *face = &solid->faces[f];
-        for (uint32_t i = 0; i < face->count; i++) {
-            uint64_t p = solid->places[solid->corners[face->first + i]];
-            uint64_t q = solid->places[solid->corners[face->first + (i + 1) % face->count]];
-            edges[face->first + i] = (keyed_t){p < q ? p << 32 | q : q << 32 | p, (uint32_t)f};
-        }
-    }
-    qsort(edges, solid->corner_count, sizeof *edges, by_key);
-    for (size_t e = 1; e < solid->corner_count; e++) {
-        if (edges[e].key == edges[e - 1].key && edges[e].item != edges[e - 1].item) {
-            link_groups(g, edges[e - 1].item, edges[e].item);
-        }
-    }
-    free(edges);
-    return !g->failed;
-}
-
-/* Z order of the middle of a group's vertices. */
-static uint64_t z_order(const solid_t *solid, const uint32_t *faces, size_t count) {
-    int64_t sum[3] = {0}, corners = 0;
-    for (size_t f = 0; f < count; f++) {
-        const solid_face_t *face = &solid->faces[faces[f]];
-        for (uint32_t i = 0; i < face->count; i++, corners++) {
-            for (int k = 0; k < 3; k++) {
-                sum[k] += solid->vertices[solid->corners[face->first + i]].position[k] + 32768;
-            }
-        }
-    }
-    uint64_t key = 0;
-    for (int bit = 15; bit >= 0; bit--) {
-        for (int k = 0; k < 3; k++) {
-            key = key << 1 | (uint64_t)(sum[k] / corners >> bit & 1);
-        }
-    }
-    return key;
+    free(pairs);
+    return count >= 0 && !g->failed;
 }
 
 /* The groups there are, in z order. */
-static keyed_t *sorted_groups(const grower_t *g, size_t *count) {
-    keyed_t *order = mesh_array(g->solid->face_count, sizeof *order);
+static keyed_face_t *sorted_groups(const grower_t *g, size_t *count) {
+    keyed_face_t *order = mesh_array(g->solid->face_count, sizeof *order);
     *count = 0;
     for (uint32_t k = 0; order && k < g->solid->face_count; k++) {
         if (g->groups[k].face_count) {
-            order[(*count)++] = (keyed_t){z_order(g->solid, g->groups[k].faces, g->groups[k].face_count), k};
+            order[(*count)++] = (keyed_face_t){solid_z_order(g->solid, g->groups[k].faces, g->groups[k].face_count), k};
         }
     }
     if (order) {
-        qsort(order, *count, sizeof *order, by_key);
+        qsort(order, *count, sizeof *order, keyed_face_order);
     }
     return order;
 }
@@ -327,7 +281,7 @@ static keyed_t *sorted_groups(const grower_t *g, size_t *count) {
 static void merge_loose(grower_t *g) {
     size_t before = SIZE_MAX, count = 0;
     while (!g->failed) {
-        keyed_t *order = sorted_groups(g, &count);
+        keyed_face_t *order = sorted_groups(g, &count);
         if (!order) {
             g->failed = true;
             return;
@@ -378,7 +332,8 @@ static void trade(grower_t *g, const uint32_t *first, const uint32_t *near) {
                 if (without < 0) {
                     without = cost_of(g, &g->groups[own], NULL, f, NOT_HERE);
                 }
-                double gain = g->groups[own].cost + g->groups[other].cost - without - cost_of(g, &g->groups[other], NULL, NOT_HERE, f);
+                double gain =
+                    g->groups[own].cost + g->groups[other].cost - without - cost_of(g, &g->groups[other], NULL, NOT_HERE, f);
                 if (gain > most) {
                     most = gain;
                     best = other;
@@ -475,7 +430,7 @@ static bool begin(grower_t *g) {
 
 static bool collect(const grower_t *g, clusters_t *clusters, bool keep_order) {
     size_t count = 0;
-    keyed_t *order = sorted_groups(g, &count);
+    keyed_face_t *order = sorted_groups(g, &count);
     clusters->faces = mesh_array(g->solid->face_count, sizeof *clusters->faces);
     clusters->first = mesh_array(count + 1, sizeof *clusters->first);
     if (!order || !clusters->faces || !clusters->first) {
@@ -485,7 +440,7 @@ static bool collect(const grower_t *g, clusters_t *clusters, bool keep_order) {
     for (size_t k = 0; keep_order && k < count; k++) {
         order[k].key = order[k].item; /* a run is named by its first face */
     }
-    qsort(order, count, sizeof *order, by_key);
+    qsort(order, count, sizeof *order, keyed_face_order);
     for (size_t k = 0; k < count; k++) {
         const group_t *group = &g->groups[order[k].item];
         memcpy(clusters->faces + clusters->first[k], group->faces, group->face_count * sizeof *group->faces);

@@ -14,8 +14,8 @@ typedef struct encoder {
     const solid_t *solid;
     const clusters_t *clusters;
     sheet_t positions, normals, table, faces, face_normals, materials, source;
-    uint32_t *local;     /* of each vertex of the solid: its place in the cluster at hand */
-    uint32_t *vertices;  /* of the cluster at hand, at most 255 */
+    uint32_t *local;    /* of each vertex of the solid: its place in the cluster at hand */
+    uint32_t *vertices; /* of the cluster at hand, at most 255 */
     size_t vertex_count, face_count, cluster_vertices_max, corners_max;
     bool failed;
 } encoder_t;
@@ -30,7 +30,9 @@ static void put(encoder_t *e, sheet_t *sheet, uint64_t value, size_t size_bytes)
     }
 }
 
-static void put_signed(encoder_t *e, sheet_t *sheet, int64_t value, size_t size_bytes) { put(e, sheet, (uint64_t)value, size_bytes); }
+static void put_signed(encoder_t *e, sheet_t *sheet, int64_t value, size_t size_bytes) {
+    put(e, sheet, (uint64_t)value, size_bytes);
+}
 
 static void align(encoder_t *e, sheet_t *sheet) {
     while (!e->failed && sheet->size % 4) {
@@ -235,7 +237,9 @@ int solid_encode(const solid_t *solid, const clusters_t *clusters, const mesh_t 
     free(e.vertices);
     if (e.failed || out.size > UINT32_MAX) {
         free(out.bytes);
-        return sim_fail(error, e.failed ? "out of memory for the bytes of %zu faces" : "the model of %zu faces takes more than 4 GiB; simplify it",
+        return sim_fail(error,
+                        e.failed ? "out of memory for the bytes of %zu faces"
+                                 : "the model of %zu faces takes more than 4 GiB; simplify it",
                         solid->face_count);
     }
     *bytes = out.bytes;

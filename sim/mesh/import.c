@@ -18,10 +18,11 @@ typedef struct log_catch {
     char text[256]; /* the first message that tells of damage */
 } log_catch_t;
 
-/* Assimp reports some damage only here, in passing, and goes on. Its other warnings and errors (a missing material file, a texture)
- * leave the faces whole. */
+/* Assimp reports some damage only here, in passing, and goes on. Its other warnings and errors (a missing material file, a
+ * texture) leave the faces whole. */
 static void catch_log(const char *message, char *user) {
-    static const char *const damage[] = {"unexpected EOF", "unexpected end", "Unexpected end", "is incorrect", "out of range", "truncated"};
+    static const char *const damage[] = {"unexpected EOF", "unexpected end", "Unexpected end",
+                                         "is incorrect",   "out of range",   "truncated"};
     log_catch_t *caught = (log_catch_t *)(void *)user;
     if (caught->text[0] || (strncmp(message, "Warn", 4) && strncmp(message, "Error", 5))) {
         return;
@@ -121,8 +122,8 @@ static int collect_vertices(collector_t *c, const struct aiMesh *from, const mat
             const double *row = matrix->m[k];
             to[k] = row[0] * (double)at->x + row[1] * (double)at->y + row[2] * (double)at->z + row[3];
             if (!isfinite(to[k])) {
-                return sim_fail(c->error, "%s: vertex %u of mesh \"%.60s\" is not finite: (%g, %g, %g); repair or remove it", c->path, v,
-                                from->mName.data, (double)at->x, (double)at->y, (double)at->z);
+                return sim_fail(c->error, "%s: vertex %u of mesh \"%.60s\" is not finite: (%g, %g, %g); repair or remove it",
+                                c->path, v, from->mName.data, (double)at->x, (double)at->y, (double)at->z);
             }
             to[k] += 0.0; /* -0 and 0 are one place */
         }
@@ -167,7 +168,8 @@ static int collect_face(collector_t *c, const struct aiMesh *from, const struct 
     unsigned count = face->mNumIndices;
     if (!mesh_reserve(&mesh->corners, &c->corners, mesh->corner_count + count, sizeof *mesh->corners) ||
         !mesh_reserve(&mesh->faces, &c->faces, mesh->face_count + 1, sizeof *mesh->faces) ||
-        !mesh_reserve(&c->colour, &c->colours, mesh->face_count + 1, sizeof *c->colour) || mesh->corner_count + count >= UINT32_MAX) {
+        !mesh_reserve(&c->colour, &c->colours, mesh->face_count + 1, sizeof *c->colour) ||
+        mesh->corner_count + count >= UINT32_MAX) {
         return no_memory(c);
     }
     for (unsigned i = 0; i < count; i++) { /* a reflection turns the winding; the first corner stays the first */
@@ -178,8 +180,8 @@ static int collect_face(collector_t *c, const struct aiMesh *from, const struct 
     if (from->mColors[0]) {
         mean_colour(from, face, c->colour[mesh->face_count]);
     }
-    mesh->faces[mesh->face_count++] = (mesh_face_t){
-        .first = (uint32_t)mesh->corner_count, .count = count, .source = (uint32_t)(mesh->source_face_count - 1)};
+    mesh->faces[mesh->face_count++] =
+        (mesh_face_t){.first = (uint32_t)mesh->corner_count, .count = count, .source = (uint32_t)(mesh->source_face_count - 1)};
     mesh->corner_count += count;
     return 0;
 }
@@ -200,13 +202,14 @@ static int collect_mesh(collector_t *c, const struct aiMesh *from, const matrix_
         const struct aiFace *face = &from->mFaces[f];
         for (unsigned i = 0; i < face->mNumIndices; i++) {
             if (face->mIndices[i] >= from->mNumVertices) {
-                return sim_fail(c->error, "%s: face %u of mesh \"%.60s\" asks for vertex %u of %u; the file is damaged, export it again",
+                return sim_fail(c->error,
+                                "%s: face %u of mesh \"%.60s\" asks for vertex %u of %u; the file is damaged, export it again",
                                 c->path, f, from->mName.data, face->mIndices[i], from->mNumVertices);
             }
         }
         if (face->mNumIndices == 0) {
-            return sim_fail(c->error, "%s: face %u of mesh \"%.60s\" has no corners; the file is damaged, export it again", c->path, f,
-                            from->mName.data);
+            return sim_fail(c->error, "%s: face %u of mesh \"%.60s\" has no corners; the file is damaged, export it again",
+                            c->path, f, from->mName.data);
         }
         if (face->mNumIndices < 3 && (from->mPrimitiveTypes & loose)) {
             c->mesh.loose_count++;
@@ -238,8 +241,8 @@ static int collect_node(collector_t *c, const struct aiNode *node, const matrix_
             return -1;
         }
     }
-    for (unsigned n = 0; n < node->mNumChildren; n++) {
-        if (collect_node(c, node->mChildren[n], &matrix, depth + 1)) {
+    for (unsigned n = 0; n < node->mNumChildren; n++) { /* the RAW importer leaves gaps */
+        if (node->mChildren[n] && collect_node(c, node->mChildren[n], &matrix, depth + 1)) {
             return -1;
         }
     }
@@ -317,12 +320,18 @@ static int collect(collector_t *c) {
     if (c->scene->mRootNode && collect_node(c, c->scene->mRootNode, &identity, 0)) {
         return -1;
     }
+    bool bare = c->mesh.position_count == 0; /* no node has a mesh: then they stand as they are */
+    for (unsigned m = 0; bare && m < c->scene->mNumMeshes; m++) {
+        if (collect_mesh(c, c->scene->mMeshes[m], &identity)) {
+            return -1;
+        }
+    }
     if (c->mesh.source_face_count && join(c)) {
         return -1;
     }
     if (c->mesh.face_count == 0) {
-        return sim_fail(c->error, "%s: no face with an area (%zu degenerate faces, %zu points and lines); nothing to draw", c->path,
-                        c->mesh.skipped_count, c->mesh.loose_count);
+        return sim_fail(c->error, "%s: no face with an area (%zu degenerate faces, %zu points and lines); nothing to draw",
+                        c->path, c->mesh.skipped_count, c->mesh.loose_count);
     }
     return paint(c) ? -1 : mesh_make_normals(&c->mesh, false, c->error);
 }
@@ -345,11 +354,17 @@ int mesh_import(mesh_t *mesh, const char *path, sim_error_t *error) {
     const struct aiScene *scene = aiImportFile(path, 0);
     (void)aiDetachLogStream(&stream);
     if (!scene) {
-        return sim_fail(error, "%s: %.300s; export it again or convert it to OBJ", path, aiGetErrorString());
+        char reason[301];
+        (void)snprintf(reason, sizeof reason, "%s", aiGetErrorString());
+        for (char *p = reason; (p = strpbrk(p, "\r\n"));) { /* some run over several lines */
+            *p = ' ';
+        }
+        return sim_fail(error, "%s: %s; export it again or convert it to OBJ", path, reason);
     }
     const char *dot = strrchr(path, '.');
     collector_t collector = {.path = path, .scene = scene, .flat_normals = dot && !strcasecmp(dot, ".stl"), .error = error};
-    status = caught.text[0] ? sim_fail(error, "%s: %.300s; the file is damaged, export it again", path, caught.text) : collect(&collector);
+    status = caught.text[0] ? sim_fail(error, "%s: %.300s; the file is damaged, export it again", path, caught.text)
+                            : collect(&collector);
     aiReleaseImport(scene);
     free(collector.colour);
     if (status) {

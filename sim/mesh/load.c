@@ -22,13 +22,14 @@ static int load_compiled(const char *path, size_t max_faces, const uint8_t *byte
     if (tuile_model_open(&model, bytes, size_bytes)) {
         uint32_t promised = size_bytes >= 8 ? model_u32(bytes + MODEL_AT_SIZE) : 0;
         if (promised != size_bytes) {
-            return sim_fail(error, "%s: %zu bytes of a compiled model of %u: cut short or damaged; compile it again", path, size_bytes,
-                            promised);
+            return sim_fail(error, "%s: %zu bytes of a compiled model of %u: cut short or damaged; compile it again", path,
+                            size_bytes, promised);
         }
         return sim_fail(error, "%s: a damaged compiled model, or one of another version; compile it again", path);
     }
     if (max_faces && model.face_count > max_faces) {
-        return sim_fail(error, "%s: is compiled already and has %u faces, more than the %zu asked for; compile it anew from its source",
+        return sim_fail(error,
+                        "%s: is compiled already and has %u faces, more than the %zu asked for; compile it anew from its source",
                         path, model.face_count, max_faces);
     }
     if (report) {
@@ -73,7 +74,8 @@ static int load_source(const char *path, size_t max_faces, uint8_t **bytes, size
     return status;
 }
 
-int mesh_load(const char *path, size_t max_faces, uint8_t **bytes, size_t *size_bytes, mesh_report_t *report, sim_error_t *error) {
+int mesh_load(const char *path, size_t max_faces, uint8_t **bytes, size_t *size_bytes, mesh_report_t *report,
+              sim_error_t *error) {
     char *text;
     size_t length;
     *bytes = NULL;

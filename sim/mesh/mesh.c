@@ -1,5 +1,6 @@
 #include "stages.h"
 
+#include <math.h>
 #include <string.h>
 
 void mesh_free(mesh_t *mesh) {
@@ -56,12 +57,16 @@ static int check(const mesh_t *mesh, sim_error_t *error) {
         if (mesh->corners[c] >= mesh->position_count || (mesh->normal_count && mesh->corner_normals[c] >= mesh->normal_count)) {
             return sim_fail(error, "corner %zu of the model refers to a vertex or normal that is not there", c);
         }
+        const double *at = mesh->positions[mesh->corners[c]];
+        if (!isfinite(at[0]) || !isfinite(at[1]) || !isfinite(at[2])) {
+            return sim_fail(error, "vertex %u of the model is not finite: (%g, %g, %g)", mesh->corners[c], at[0], at[1], at[2]);
+        }
     }
     return 0;
 }
 
-static int compile(const mesh_t *mesh, const mesh_options_t *options, uint8_t **bytes, size_t *size_bytes,
-                   mesh_report_t *report, sim_error_t *error) {
+static int compile(const mesh_t *mesh, const mesh_options_t *options, uint8_t **bytes, size_t *size_bytes, mesh_report_t *report,
+                   sim_error_t *error) {
     solid_t solid = {0};
     clusters_t clusters = {0};
     size_t vertex_count = 0;

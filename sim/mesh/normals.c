@@ -62,7 +62,7 @@ static double corner_angle(const mesh_t *mesh, const mesh_face_t *face, uint32_t
     return acos(fmax(-1.0, fmin(1.0, dot(a, b))));
 }
 
-typedef struct wheel { /* the faces around each position */
+typedef struct wheel {  /* the faces around each position */
     double (*units)[3]; /* of each face; zero for one without area */
     double *angles;     /* of each corner */
     uint32_t *face_of;  /* of each corner */
@@ -158,7 +158,8 @@ int mesh_make_normals(mesh_t *mesh, bool flat, sim_error_t *error) {
             normals[c][k] += 0.0; /* -0 and 0 are one normal */
         }
     }
-    mesh->normal_count = meshopt_generateVertexRemap(remap, NULL, mesh->corner_count, normals, mesh->corner_count, sizeof *normals);
+    mesh->normal_count =
+        meshopt_generateVertexRemap(remap, NULL, mesh->corner_count, normals, mesh->corner_count, sizeof *normals);
     for (size_t c = 0; c < mesh->corner_count; c++) { /* in place: a normal never moves up */
         corner_normals[c] = remap[c];
         memmove(normals[remap[c]], normals[c], sizeof normals[c]);

@@ -6,9 +6,9 @@
 
 typedef struct swatch {
     uint8_t colour[3];
-    uint32_t faces;   /* that have it */
+    uint32_t faces;    /* that have it */
     uint32_t earliest; /* of them */
-    uint32_t entry;   /* of the palette */
+    uint32_t entry;    /* of the palette */
 } swatch_t;
 
 typedef struct box {
@@ -29,11 +29,11 @@ static int by_use(const void *a, const void *b) {
     return (x->earliest > y->earliest) - (x->earliest < y->earliest);
 }
 
-#define BY_AXIS(name, axis)                                                                                                     \
-    static int name(const void *a, const void *b) {                                                                             \
-        const swatch_t *x = a, *y = b;                                                                                          \
-        int order = x->colour[axis] - y->colour[axis];                                                                          \
-        return order ? order : by_colour(a, b);                                                                                 \
+#define BY_AXIS(name, axis)                                                                                                      \
+    static int name(const void *a, const void *b) {                                                                              \
+        const swatch_t *x = a, *y = b;                                                                                           \
+        int order = x->colour[axis] - y->colour[axis];                                                                           \
+        return order ? order : by_colour(a, b);                                                                                  \
     }
 BY_AXIS(by_red, 0)
 BY_AXIS(by_green, 1)

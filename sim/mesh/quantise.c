@@ -151,8 +151,8 @@ static bool quantise_places(work_t *w) {
             solid->error = fmax(solid->error, sqrt(squares));
         }
     }
-    solid->place_count =
-        meshopt_generateVertexRemap(w->place_index, NULL, mesh->position_count, w->places, mesh->position_count, sizeof *w->places);
+    solid->place_count = meshopt_generateVertexRemap(w->place_index, NULL, mesh->position_count, w->places, mesh->position_count,
+                                                     sizeof *w->places);
     for (size_t n = 0; n < mesh->normal_count; n++) {
         for (int k = 0; k < 3; k++) {
             w->normals[n][k] = (int8_t)lround(fmax(-1, fmin(1, mesh->normals[n][k])) * 127);
@@ -226,10 +226,12 @@ static bool convex(const int32_t (*points)[3], size_t count, const int64_t norma
 /* Appends a face of `count` corners, corner[pick[i]] or corner[i]; 0 when it has no area, -1 without memory. */
 static int emit(work_t *w, const mesh_face_t *from, const uint32_t *pick, size_t count) {
     solid_t *solid = w->solid;
-    solid_face_t face = {.first = (uint32_t)solid->corner_count, .count = (uint32_t)count, .material = from->material, .source = from->source};
-    const int32_t triangle[3][3] = {{w->points[pick ? pick[0] : 0][0], w->points[pick ? pick[0] : 0][1], w->points[pick ? pick[0] : 0][2]},
-                                    {w->points[pick ? pick[1] : 1][0], w->points[pick ? pick[1] : 1][1], w->points[pick ? pick[1] : 1][2]},
-                                    {w->points[pick ? pick[2] : 2][0], w->points[pick ? pick[2] : 2][1], w->points[pick ? pick[2] : 2][2]}};
+    solid_face_t face = {
+        .first = (uint32_t)solid->corner_count, .count = (uint32_t)count, .material = from->material, .source = from->source};
+    const int32_t triangle[3][3] = {
+        {w->points[pick ? pick[0] : 0][0], w->points[pick ? pick[0] : 0][1], w->points[pick ? pick[0] : 0][2]},
+        {w->points[pick ? pick[1] : 1][0], w->points[pick ? pick[1] : 1][1], w->points[pick ? pick[1] : 1][2]},
+        {w->points[pick ? pick[2] : 2][0], w->points[pick ? pick[2] : 2][1], w->points[pick ? pick[2] : 2][2]}};
     const int32_t(*points)[3] = pick ? triangle : (const int32_t(*)[3])w->points;
     newell(points, count, face.normal);
     if (!face.normal[0] && !face.normal[1] && !face.normal[2]) {
@@ -273,7 +275,8 @@ static size_t gather(work_t *w, const mesh_face_t *face) {
         }
         w->corner[count++] = face->first + i;
     }
-    while (count > 1 && w->place_index[w->mesh->corners[w->corner[count - 1]]] == w->place_index[w->mesh->corners[w->corner[0]]]) {
+    while (count > 1 &&
+           w->place_index[w->mesh->corners[w->corner[count - 1]]] == w->place_index[w->mesh->corners[w->corner[0]]]) {
         count--;
     }
     for (size_t i = 0; i < count; i++) {
@@ -299,7 +302,8 @@ static bool quantise_face(work_t *w, const mesh_face_t *face) {
     size_t count = gather(w, face);
     bool bent = count > 3 && !w->options->keep_planar && !planar(w->mesh, face, solid->step_value);
     bool split = bent || count > MESH_CORNERS_MAX;
-    if (count > 3 && !split && !evenly_lit(w, count)) { /* interpolated light is only right on triangles: no fan, no single face */
+    if (count > 3 && !split &&
+        !evenly_lit(w, count)) { /* interpolated light is only right on triangles: no fan, no single face */
         int64_t normal[3];
         newell((const int32_t(*)[3])w->points, count, normal);
         split = !convex((const int32_t(*)[3])w->points, count, normal);

@@ -11,10 +11,10 @@
 #include <meshoptimizer.h>
 #include <string.h>
 
-typedef struct soup { /* of triangles, with a vertex for each pair of position and material */
-    float (*places)[3];   /* within a unit cube */
-    uint32_t *positions;  /* of each vertex, in the mesh */
-    uint32_t *materials;  /* of each vertex */
+typedef struct soup {    /* of triangles, with a vertex for each pair of position and material */
+    float (*places)[3];  /* within a unit cube */
+    uint32_t *positions; /* of each vertex, in the mesh */
+    uint32_t *materials; /* of each vertex */
     size_t vertex_count;
     uint32_t *indices;
     size_t index_count;
@@ -145,15 +145,18 @@ static bool soup_without_seams(soup_t *soup, const mesh_t *mesh) {
 static size_t reduce(soup_t *soup, const mesh_t *mesh, size_t target, uint32_t *result) {
     const float *places = &soup->places[0][0];
     size_t stride = sizeof *soup->places;
-    size_t made = meshopt_simplify(result, soup->indices, soup->index_count, places, soup->vertex_count, stride, target, FLT_MAX, 0, NULL);
+    size_t made =
+        meshopt_simplify(result, soup->indices, soup->index_count, places, soup->vertex_count, stride, target, FLT_MAX, 0, NULL);
     if (made <= target || !soup_without_seams(soup, mesh)) {
         return made;
     }
-    made = meshopt_simplify(result, soup->indices, soup->index_count, places, soup->vertex_count, stride, target, FLT_MAX, 0, NULL);
+    made =
+        meshopt_simplify(result, soup->indices, soup->index_count, places, soup->vertex_count, stride, target, FLT_MAX, 0, NULL);
     if (made <= target) {
         return made;
     }
-    return meshopt_simplifySloppy(result, soup->indices, soup->index_count, places, soup->vertex_count, stride, target, FLT_MAX, NULL);
+    return meshopt_simplifySloppy(result, soup->indices, soup->index_count, places, soup->vertex_count, stride, target, FLT_MAX,
+                                  NULL);
 }
 
 /* The new mesh: the triangles of indices. Positions that none of them uses stay, and do no harm. */
@@ -208,7 +211,8 @@ int mesh_simplify(mesh_t *mesh, size_t max_faces, sim_error_t *error) {
         if (!placed || !result) {
             status = sim_fail(error, "out of memory to simplify %zu triangles", soup.index_count / 3);
         } else if (made == 0 || made > 3 * max_faces) {
-            status = sim_fail(error, "the model of %zu triangles cannot be simplified to %zu; allow more", soup.index_count / 3, max_faces);
+            status = sim_fail(error, "the model of %zu triangles cannot be simplified to %zu; allow more", soup.index_count / 3,
+                              max_faces);
         } else {
             status = rebuild(mesh, &soup, result, made, error);
         }

@@ -42,15 +42,17 @@ int mesh_make_normals(mesh_t *mesh, bool flat, sim_error_t *error);
 
 #define MESH_MATERIALS_MAX 256u
 
-/* At most MESH_MATERIALS_MAX colours for all, in order of first use; index[i] is the one of colours[i]. 0, or -1 without memory. */
+/* At most MESH_MATERIALS_MAX colours for all, in order of first use; index[i] is the one of colours[i]. 0, or -1 without memory.
+ */
 int mesh_palette(const uint8_t (*colours)[3], size_t count, uint8_t (*palette)[3], size_t *palette_count, uint32_t *index);
 
 /* ---- triangulate.c ----------------------------------------------------------------------------------------- */
 
 #define MESH_TRIANGULATE_RANGE (1 << 28) /* |coordinate| at most */
 
-/* Cuts a polygon into at most count - 2 triangles of positive area as seen along its Newell normal, by ear clipping.
- * triangles[i] are indices into points. Returns their number, 0 when the polygon has no area, -1 without memory. */
+/* Cuts a polygon into at most count - 2 triangles, each with an area and, where the polygon does not cross itself as seen along
+ * its Newell normal, turned like it. triangles[i] are indices into points. Returns their number, 0 when the polygon has no area,
+ * -1 without memory. */
 long mesh_triangulate(const int32_t (*points)[3], size_t count, uint32_t (*triangles)[3]);
 
 /* ---- quantise.c: the mesh on its integer grid -------------------------------------------------------------- */
@@ -106,6 +108,22 @@ bounds_sphere_t bounds_of_vertices(const solid_t *solid, const uint32_t *vertice
 
 /* faces: indices into solid->faces. -1 without memory. */
 int bounds_of_normals(const solid_t *solid, const uint32_t *faces, size_t count, bounds_cone_t *cone);
+
+/* ---- neighbours.c ------------------------------------------------------------------------------------------ */
+
+typedef struct keyed_face {
+    uint64_t key;
+    uint32_t item;
+} keyed_face_t;
+
+/* For qsort: by key, then by item, so that the order is the same everywhere. */
+int keyed_face_order(const void *x, const void *y);
+
+/* Pairs of faces with an edge in common, malloc'ed; their number, or -1 without memory; to be freed in both cases. */
+long solid_neighbours(const solid_t *solid, uint32_t (**pairs)[2]);
+
+/* Where the middle of some faces comes in z order: near keys lie near in space. count >= 1. */
+uint64_t solid_z_order(const solid_t *solid, const uint32_t *faces, size_t count);
 
 /* ---- cluster.c --------------------------------------------------------------------------------------------- */
 

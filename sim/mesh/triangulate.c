@@ -1,10 +1,12 @@
 /* Polygons to triangles by ear clipping, in exact integers.
  *
  * The polygon is looked at along the axis in which its Newell normal is longest. Of the ears there the roundest is cut first,
- * which keeps slivers few. A corner without area (collinear with its neighbours, a repeated vertex, the tip of a spike) is no
- * ear; it stays, as a neighbour may share that vertex, until nothing else is left, and then falls without a triangle. Polygons
- * that touch themselves, as those do whose holes are joined to the outline by a bridge, come out right; where one crosses itself
- * no cut is right, and the widest corner is taken so that the work ends.
+ * which keeps slivers few. A corner between two collinear edges is no ear; it stays, as a neighbour may share that vertex, until
+ * nothing else is left, and then falls without a triangle. Repeated vertices and the tips of spikes fall at once: left to the
+ * end, the two sides of a spike would seem to enclose something. Polygons that touch themselves, as those do whose holes are
+ * joined to the outline by a bridge, come out right. Where one crosses itself as seen (a bent one may, though it does not in
+ * space) there is no right cut: the widest corner is taken, and its triangle kept even if it comes out reversed, as the surface
+ * would else have a hole there.
  */
 #include "stages.h"
 
@@ -15,6 +17,7 @@ typedef struct flat_point {
 } flat_point_t;
 
 typedef struct ring {
+    const int32_t (*solid)[3]; /* the polygon as given */
     const flat_point_t *points;
     uint32_t *next, *previous;
     double *roundness; /* of an ear, > 0; 0 = not an ear */
@@ -106,11 +109,60 @@ static uint32_t least_bad(const ring_t *ring, uint32_t start) {
     return best;
 }
 
+static void cut(ring_t *ring, uint32_t at) {
+    ring->next[ring->previous[at]] = ring->next[at];
+    ring->previous[ring->next[at]] = ring->previous[at];
+    ring->left--;
+}
+
+/* Is there a triangle in space, exactly? Differences <= 2^29, as above. */
+static bool has_area(const ring_t *ring, uint32_t a, uint32_t b, uint32_t c) {
+    const int32_t *p = ring->solid[a], *q = ring->solid[b], *r = ring->solid[c];
+    for (int k = 0; k < 3; k++) {
+        int y = (k + 1) % 3, z = (k + 2) % 3;
+        if ((int64_t)(q[y] - p[y]) * (r[z] - p[z]) != (int64_t)(q[z] - p[z]) * (r[y] - p[y])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A vertex repeated, or the tip of a spike: the outline goes back the way it came. */
+static bool is_spike(const ring_t *ring, uint32_t at) {
+    uint32_t before = ring->previous[at], after = ring->next[at];
+    const int32_t *a = ring->solid[before], *b = ring->solid[at], *c = ring->solid[after];
+    int64_t forth = 0, along = 0, back = 0;
+    for (int k = 0; k < 3; k++) {
+        forth += llabs((int64_t)b[k] - a[k]);
+        back += llabs((int64_t)c[k] - b[k]);
+        along += (int64_t)(a[k] - b[k]) * (c[k] - b[k]);
+    }
+    return !has_area(ring, before, at, after) && (!forth || !back || along > 0);
+}
+
+/* Cuts off the spikes at `at` and behind it, and those that appear thereby; what stands at `at` then. */
+static uint32_t trim(ring_t *ring, uint32_t at) {
+    while (ring->left >= 3) {
+        if (is_spike(ring, at)) {
+            cut(ring, at);
+            at = ring->previous[at];
+        } else if (is_spike(ring, ring->next[at])) {
+            cut(ring, ring->next[at]);
+        } else {
+            break;
+        }
+    }
+    return at;
+}
+
 static long clip(ring_t *ring, uint32_t (*triangles)[3]) {
     long count = 0;
     uint32_t start = 0;
-    for (uint32_t i = 0; i < ring->left; i++) {
-        ring->roundness[i] = roundness(ring, i);
+    for (uint32_t i = ring->left; i > 0; i--) {
+        start = ring->next[trim(ring, start)];
+    }
+    for (uint32_t i = 0, at = start; i < ring->left; i++, at = ring->next[at]) {
+        ring->roundness[at] = ring->left < 3 ? 0 : roundness(ring, at);
     }
     while (ring->left >= 3) {
         uint32_t ear = roundest(ring, start);
@@ -124,19 +176,17 @@ static long clip(ring_t *ring, uint32_t (*triangles)[3]) {
             ear = least_bad(ring, start);
         }
         uint32_t a = ring->previous[ear], c = ring->next[ear];
-        if (area(ring->points[a], ring->points[ear], ring->points[c]) > 0) {
+        if (has_area(ring, a, ear, c)) {
             triangles[count][0] = a;
             triangles[count][1] = ear;
             triangles[count][2] = c;
             count++;
         }
-        ring->next[a] = c;
-        ring->previous[c] = a;
-        ring->left--;
-        start = c;
+        cut(ring, ear);
+        start = trim(ring, a);
         if (ring->left >= 3) {
-            ring->roundness[a] = roundness(ring, a);
-            ring->roundness[c] = roundness(ring, c);
+            ring->roundness[start] = roundness(ring, start);
+            ring->roundness[ring->next[start]] = roundness(ring, ring->next[start]);
         }
     }
     return count;
@@ -175,7 +225,8 @@ static bool flatten(const int32_t (*points)[3], size_t count, flat_point_t *flat
 
 long mesh_triangulate(const int32_t (*points)[3], size_t count, uint32_t (*triangles)[3]) {
     flat_point_t *flat = mesh_array(count, sizeof *flat);
-    ring_t ring = {.points = flat,
+    ring_t ring = {.solid = points,
+                   .points = flat,
                    .next = mesh_array(count, sizeof *ring.next),
                    .previous = mesh_array(count, sizeof *ring.previous),
                    .roundness = mesh_array(count, sizeof *ring.roundness),

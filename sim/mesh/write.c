@@ -1,5 +1,6 @@
 /* Model files, whole or not at all: the bytes go to a new file beside the old one, which takes its place only when every one of
- * them is known to be on the disk. What is no ordinary file (a pipe, a device) has no place to be taken and is written to directly.
+ * them is known to be on the disk. What is no ordinary file (a pipe, a device) has no place to be taken and is written to
+ * directly.
  */
 #include "stages.h"
 
@@ -12,10 +13,10 @@
 
 #define NAME_MAX_CHARS 63 /* what C promises to tell apart */
 
-static const char *const reserved[] = {"auto",     "break",  "case",     "char",   "const",    "continue", "default",  "do",
-                                       "double",   "else",   "enum",     "extern", "float",    "for",      "goto",     "if",
-                                       "inline",   "int",    "long",     "register", "restrict", "return", "short",    "signed",
-                                       "sizeof",   "static", "struct",   "switch", "typedef",  "union",    "unsigned", "void",
+static const char *const reserved[] = {"auto",     "break",  "case",     "char",     "const",    "continue", "default",  "do",
+                                       "double",   "else",   "enum",     "extern",   "float",    "for",      "goto",     "if",
+                                       "inline",   "int",    "long",     "register", "restrict", "return",   "short",    "signed",
+                                       "sizeof",   "static", "struct",   "switch",   "typedef",  "union",    "unsigned", "void",
                                        "volatile", "while",  "uint32_t", "main"};
 
 static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -65,16 +66,17 @@ static void default_name(const char *path, char name[NAME_MAX_CHARS + 1]) {
 static int put_source(FILE *file, const uint8_t *bytes, size_t size_bytes, const char *name) {
     size_t words = (size_bytes + 3) / 4;
     int exponent = model_i16(bytes + MODEL_AT_STEP_EXPONENT);
-    (void)fprintf(file,
-                  "/* A compiled model for tuile_model_open(&model, %s, sizeof %s).\n"
-                  " * %u faces, %u vertices in %u clusters (at most %u each), %u materials, %zu bytes; one step is %u * 2^%d units.\n"
-                  " * The words are little-endian, as the machine has to be. */\n"
-                  "#include <stdint.h>\n\n"
-                  "extern const uint32_t %s[%zu];\n"
-                  "const uint32_t %s[%zu] = {",
-                  name, name, model_u32(bytes + MODEL_AT_FACES), model_u32(bytes + MODEL_AT_VERTICES),
-                  model_u32(bytes + MODEL_AT_CLUSTERS), model_u16(bytes + MODEL_AT_CLUSTER_MAX), model_u16(bytes + MODEL_AT_MATERIALS),
-                  size_bytes, model_u32(bytes + MODEL_AT_STEP_MANTISSA), exponent, name, words, name, words);
+    (void)fprintf(
+        file,
+        "/* A compiled model for tuile_model_open(&model, %s, sizeof %s).\n"
+        " * %u faces, %u vertices in %u clusters (at most %u each), %u materials, %zu bytes; one step is %u * 2^%d units.\n"
+        " * The words are little-endian, as the machine has to be. */\n"
+        "#include <stdint.h>\n\n"
+        "extern const uint32_t %s[%zu];\n"
+        "const uint32_t %s[%zu] = {",
+        name, name, model_u32(bytes + MODEL_AT_FACES), model_u32(bytes + MODEL_AT_VERTICES), model_u32(bytes + MODEL_AT_CLUSTERS),
+        model_u16(bytes + MODEL_AT_CLUSTER_MAX), model_u16(bytes + MODEL_AT_MATERIALS), size_bytes,
+        model_u32(bytes + MODEL_AT_STEP_MANTISSA), exponent, name, words, name, words);
     for (size_t w = 0; w < words; w++) {
         uint8_t word[4] = {0};
         memcpy(word, bytes + 4 * w, size_bytes - 4 * w < 4 ? size_bytes - 4 * w : 4);
@@ -158,8 +160,8 @@ int mesh_write(const uint8_t *bytes, size_t size_bytes, const char *path, const 
         name = made_up;
     }
     if (source && !is_identifier(name)) {
-        return sim_fail(error, "\"%.80s\" is no name for an object in C; take a letter, then letters, digits and _, at most %d", name,
-                        NAME_MAX_CHARS);
+        return sim_fail(error, "\"%.80s\" is no name for an object in C; take a letter, then letters, digits and _, at most %d",
+                        name, NAME_MAX_CHARS);
     }
     mode_t mask = umask(0);
     (void)umask(mask);
@@ -175,7 +177,8 @@ int mesh_write(const uint8_t *bytes, size_t size_bytes, const char *path, const 
         return trouble ? sim_fail(error, "%s: writing failed: %s", path, strerror(trouble)) : 0;
     }
     char *real = there ? realpath(path, NULL) : NULL; /* what a link names is replaced, not the link */
-    int result = replace(real ? real : path, bytes, size_bytes, source ? name : NULL, there ? status.st_mode & 0777 : mode, error);
+    int result =
+        replace(real ? real : path, bytes, size_bytes, source ? name : NULL, there ? status.st_mode & 0777 : mode, error);
     free(real);
     return result;
 }

@@ -59,5 +59,5 @@ awk 'BEGIN { printf "%-10s %-9s %-8s %-8s %7s %12s %10s %10s %10s %10s %10s\n", 
      { printf "%-10s %-9s %-8s %-8s %7d %12d %10d %10d %10d %10d %10d\n", $1, $2 "x" $3, $4, $5, $6, $7, $8, $9, $10, $11, $12 }' "$rows"
 awk 'BEGIN { print "[" }
      { printf "%s  {\"target\": \"x86-64\", \"model\": \"%s\", \"width\": %d, \"height\": %d, \"tile\": \"%s\", \"method\": \"zbuffer\", \"shade\": \"%s\", \"faces\": %d, \"instructions\": %d, \"phases\": {\"vertex\": %d, \"setup\": %d, \"span\": %d, \"clear\": %d, \"resolve\": %d}}",
-       NR > 1 ? ",\n" : "", $1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12 }
+       (NR > 1 ? ",\n" : ""), $1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12 }
      END { print "\n]" }' "$rows" >"$out/bench.json"
