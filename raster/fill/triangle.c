@@ -55,47 +55,39 @@ static TUILE_NOINLINE void bend(triangle_t *t) {
     t->row_mid = t->row_end;
 }
 
-TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t area,
-                                   int32_t first_row, bool gouraud) {
-    const int32_t x0 = v0->x, y0 = v0->y, x1 = v1->x - x0, y1 = v1->y - y0, x2 = v2->x - x0, y2 = v2->y - y0;
-    const int32_t least = x1 < x2 ? (x1 < 0 ? x1 : 0) : (x2 < 0 ? x2 : 0), most = x1 > x2 ? (x1 > 0 ? x1 : 0) : (x2 > 0 ? x2 : 0);
-    const bool bends_left = y1 < y2;
-    const vertex_t *mid = bends_left ? v1 : v2, *low = bends_left ? v2 : v1; /* mid is not below low */
-    const int32_t row_mid = edge_row(mid->y), row_end = edge_row(low->y), first = edge_row(y0);
-    const int32_t row = first > first_row ? first : first_row;
-    const bool is_short = most - least < SHORT_SIDE && low->y - y0 < SHORT_SIDE;
-
-    /* Sides. */
-    triangle->row = (int16_t)row;
-    triangle->row_mid = triangle->row_end = (int16_t)row_end;
-    triangle->bends_left = bends_left;
-    triangle->is_short = is_short;
-    triangle->left = (int16_t)edge_row(x0 + least);
-    triangle->right = (int16_t)edge_row(x0 + most);
-    side_start(triangle, !bends_left, x0, y0, low->x, low->y, row);
+/* Both sides from the top down, and what is needed at the bend. mid is not below low. */
+TUILE_INLINE void sides_start(triangle_t *t, bool bends_left, int32_t x0, int32_t y0, const vertex_t *mid, const vertex_t *low, int32_t row) {
+    const int32_t row_mid = edge_row(mid->y), row_end = edge_row(low->y);
+    t->bends_left = bends_left;
+    t->row_mid = t->row_end = (int16_t)row_end;
+    side_start(t, !bends_left, x0, y0, low->x, low->y, row);
     if (row >= row_mid) {
-        side_start(triangle, bends_left, mid->x, mid->y, low->x, low->y, row);
-    } else {
-        side_start(triangle, bends_left, x0, y0, mid->x, mid->y, row);
-        if (row_mid < row_end) {
-            triangle->row_mid = (int16_t)row_mid;
-            triangle->mid_x = mid->x;
-            triangle->mid_y = mid->y;
-            triangle->low_x = low->x;
-            triangle->low_y = low->y;
-        }
+        side_start(t, bends_left, mid->x, mid->y, low->x, low->y, row);
+        return;
     }
+    side_start(t, bends_left, x0, y0, mid->x, mid->y, row);
+    if (row_mid < row_end) {
+        t->row_mid = (int16_t)row_mid;
+        t->mid_x = mid->x;
+        t->mid_y = mid->y;
+        t->low_x = low->x;
+        t->low_y = low->y;
+    }
+}
 
-    /* Gradients. */
-    const uint32_t depth0 = v0->depth_light >> 8, light0 = v0->depth_light & 0xff;
+/* All but the sides. */
+TUILE_INLINE void shade_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t row, bool gouraud) {
+    const int32_t x0 = v0->x, y0 = v0->y, x1 = v1->x - x0, y1 = v1->y - y0, x2 = v2->x - x0, y2 = v2->y - y0;
+    const int32_t area = x2 * y1 - x1 * y2, reciprocal = INT32_MAX / area;
+    const uint32_t depth0 = v0->depth_light >> 8;
     const int32_t z1 = (int32_t)(v1->depth_light >> 8) - (int32_t)depth0, z2 = (int32_t)(v2->depth_light >> 8) - (int32_t)depth0;
     const int32_t to_x = 8 - x0, to_y = 16 * row + 8 - y0;
-    const bool small = is_short && (uint32_t)(z1 + SMALL_DEPTH) < 2 * SMALL_DEPTH && (uint32_t)(z2 + SMALL_DEPTH) < 2 * SMALL_DEPTH;
-    const int32_t reciprocal = INT32_MAX / area;
+    const bool small = triangle->is_short && (uint32_t)(z1 + SMALL_DEPTH) < 2 * SMALL_DEPTH && (uint32_t)(z2 + SMALL_DEPTH) < 2 * SMALL_DEPTH;
     const gradient_t depth = small ? gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12) : gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
     uint64_t shade = shade_pack(((int64_t)depth0 << 8) + 0x8000 + gradient_part(depth, to_x & 15, to_y & 15), 0);
     uint64_t dx = shade_pack(depth.dx, 0), dy = shade_pack(depth.dy, 0);
     if (gouraud) {
+        const uint32_t light0 = v0->depth_light & 0xff;
         const int32_t l1 = (int32_t)(v1->depth_light & 0xff) - (int32_t)light0, l2 = (int32_t)(v2->depth_light & 0xff) - (int32_t)light0;
         const gradient_t light = small ? gradient_small(l1, l2, x1, y1, x2, y2, reciprocal, 28) : gradient_exact(l1, l2, x1, y1, x2, y2, area, 28);
         shade += shade_pack(0, ((int64_t)light0 << 24) + 0x800000 + gradient_part(light, to_x & 15, to_y & 15));
@@ -105,6 +97,24 @@ TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, con
     triangle->shade = shade + dx * (uint64_t)(int64_t)(to_x >> 4) + dy * (uint64_t)(int64_t)(to_y >> 4);
     triangle->dx = dx;
     triangle->dy = dy;
+}
+
+TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t first_row,
+                                   bool gouraud) {
+    const int32_t x0 = v0->x, x1 = v1->x, x2 = v2->x, first = edge_row(v0->y), row = first > first_row ? first : first_row;
+    const int32_t least = x0 < x1 ? (x0 < x2 ? x0 : x2) : (x1 < x2 ? x1 : x2), most = x0 > x1 ? (x0 > x2 ? x0 : x2) : (x1 > x2 ? x1 : x2);
+    const bool bends_left = v1->y < v2->y;
+
+    triangle->row = (int16_t)row;
+    triangle->left = (int16_t)edge_row(least);
+    triangle->right = (int16_t)edge_row(most);
+    triangle->is_short = most - least < SHORT_SIDE && (bends_left ? v2->y : v1->y) - v0->y < SHORT_SIDE;
+    shade_start(triangle, v0, v1, v2, row, gouraud);
+    if (bends_left) {
+        sides_start(triangle, true, x0, v0->y, v1, v2, row);
+    } else {
+        sides_start(triangle, false, x0, v0->y, v2, v1, row);
+    }
 }
 
 /* kind, last, clamp and is_short are constants where this is called, so that each combination gets a loop of its own. `at` is the index
@@ -167,32 +177,21 @@ TUILE_INLINE void fill_rows(triangle_t *t, const raster_tile_t *tile, bool is_sh
     t->shade = shade;
 }
 
-static TUILE_NOINLINE void fill_gouraud(triangle_t *t, const raster_tile_t *tile, const uint16_t *ramp) {
+TUILE_NOINLINE void triangle_fill_gouraud(triangle_t *t, const raster_tile_t *tile, const uint16_t *ramp) {
     fill_rows(t, tile, true, false, SPAN_GOURAUD, false, ramp);
 }
 
-static TUILE_NOINLINE void fill_flat(triangle_t *t, const raster_tile_t *tile) {
+TUILE_NOINLINE void triangle_fill_flat(triangle_t *t, const raster_tile_t *tile) {
     fill_rows(t, tile, true, false, SPAN_FLAT, false, NULL);
 }
 
-/* Long sides, cut by the tile, or with another rule for ties. */
-static TUILE_NOINLINE void fill_any(triangle_t *t, const raster_tile_t *tile, span_kind_t kind, bool last, const uint16_t *ramp) {
+TUILE_NOINLINE void triangle_fill_any(triangle_t *t, const raster_tile_t *tile, span_kind_t kind, bool last, const uint16_t *ramp) {
     if (kind == SPAN_GOURAUD) {
         t->is_short ? fill_rows(t, tile, true, true, SPAN_GOURAUD, last, ramp) : fill_rows(t, tile, false, true, SPAN_GOURAUD, last, ramp);
     } else if (kind == SPAN_FLAT) {
         t->is_short ? fill_rows(t, tile, true, true, SPAN_FLAT, last, NULL) : fill_rows(t, tile, false, true, SPAN_FLAT, last, NULL);
     } else {
         t->is_short ? fill_rows(t, tile, true, true, SPAN_IDS, last, NULL) : fill_rows(t, tile, false, true, SPAN_IDS, last, NULL);
-    }
-}
-
-void triangle_fill(triangle_t *triangle, const raster_tile_t *tile, span_kind_t kind, bool last, const uint16_t *ramp) {
-    if (!triangle->is_short || last || triangle->left < tile->left || triangle->right > tile->right || kind == SPAN_IDS) {
-        fill_any(triangle, tile, kind, last, ramp);
-    } else if (kind == SPAN_GOURAUD) {
-        fill_gouraud(triangle, tile, ramp);
-    } else {
-        fill_flat(triangle, tile);
     }
 }
 

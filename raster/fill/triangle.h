@@ -26,14 +26,26 @@ typedef struct triangle {
     } side;
 } triangle_t;
 
-/* v[0] is a topmost vertex, v[0] v[1] v[2] is counter-clockwise as seen (area > 0, see face.h), and it spans some row >= first_row.
+/* v0 is a topmost vertex, v0 v1 v2 is counter-clockwise as seen, with an area above 0, and it spans some row >= first_row.
  * gouraud: light gradients are wanted. Leaves size_bytes, record and value alone. */
-void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t area, int32_t first_row,
-                    bool gouraud);
+void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t first_row, bool gouraud);
 
-/* Fills the rows from triangle->row to the tile's bottom or the triangle's end, and leaves the state there. triangle->row <
- * tile->bottom. ramp: SPAN_GOURAUD only. */
-void triangle_fill(triangle_t *triangle, const raster_tile_t *tile, span_kind_t kind, bool last, const uint16_t *ramp);
+/* All of these fill the rows from triangle->row to the tile's bottom or the triangle's end, and leave the state there; triangle->row <
+ * tile->bottom. The first two are for short sides, within the tile's columns, where the first of equals wins. */
+void triangle_fill_gouraud(triangle_t *triangle, const raster_tile_t *tile, const uint16_t *ramp);
+void triangle_fill_flat(triangle_t *triangle, const raster_tile_t *tile);
+void triangle_fill_any(triangle_t *triangle, const raster_tile_t *tile, span_kind_t kind, bool last, const uint16_t *ramp);
+
+/* ramp: SPAN_GOURAUD only. */
+TUILE_INLINE void triangle_fill(triangle_t *triangle, const raster_tile_t *tile, span_kind_t kind, bool last, const uint16_t *ramp) {
+    if (TUILE_UNLIKELY(!triangle->is_short || last || triangle->left < tile->left || triangle->right > tile->right || kind == SPAN_IDS)) {
+        triangle_fill_any(triangle, tile, kind, last, ramp);
+    } else if (kind == SPAN_GOURAUD) {
+        triangle_fill_gouraud(triangle, tile, ramp);
+    } else {
+        triangle_fill_flat(triangle, tile);
+    }
+}
 
 /* The same without drawing. */
 void triangle_skip(triangle_t *triangle, int32_t row);

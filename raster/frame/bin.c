@@ -7,8 +7,9 @@ typedef struct cluster {
     const uint8_t *bytes; /* in the model's table */
     const uint8_t *faces;
     const int16_t *positions;
-    const int8_t *face_normals;
+    const int8_t *face_normals; /* flat shading, else NULL */
     vertex_t *vertices;
+    bool any_outside; /* some vertex needs clipping */
     uint32_t first_face; /* id - 1 of its first face */
 } cluster_t;
 
@@ -62,44 +63,55 @@ static uint8_t flat_light(const tuile_t *t, const int8_t *normal, bool back) {
     return vertex_light(&t->transform, sign * normal[0], sign * normal[1], sign * normal[2]);
 }
 
-/* One triangle, all corners in the window's guard band. */
-TUILE_INLINE int bin_triangle(tuile_t *t, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, uint8_t material,
-                              const int8_t *normal, uint32_t id) {
-    int32_t area = signed_area(v0, v1, v2);
+/* One triangle, all corners in the window's guard band: vertices a, b and c behind slot `base`. */
+TUILE_INLINE int bin_triangle(tuile_t *t, uint32_t base, uint32_t a, uint32_t b, uint32_t c, uint8_t material, const int8_t *normal,
+                              uint32_t id) {
+    const vertex_t *v = t->vertices + base, *va = &v[a], *vb = &v[b], *vc = &v[c];
+    const int32_t area = signed_area(va, vb, vc);
     bool back = false;
     if (area <= 0) {
         if (area == 0) {
             t->stats.faces_degenerate++;
             return BIN_OK;
         }
-        if (!t->transform.two_sided) {
+        if (TUILE_LIKELY(!t->transform.two_sided)) {
             t->stats.faces_back++;
             return BIN_OK;
         }
-        const vertex_t *swap = v1;
-        v1 = v2;
-        v2 = swap;
+        const uint32_t swap = b;
+        b = c;
+        c = swap;
+        vb = &v[b];
+        vc = &v[c];
         back = true;
     }
-    if (!box_in_region(t, least3(v0->x, v1->x, v2->x), most3(v0->x, v1->x, v2->x), least3(v0->y, v1->y, v2->y),
-                       most3(v0->y, v1->y, v2->y))) {
+    /* The topmost corner becomes the first; the order round the face stays. */
+    int32_t top = va->y, bottom;
+    if (vb->y < top && vb->y <= vc->y) {
+        const uint32_t first = a;
+        a = b, b = c, c = first;
+        bottom = vc->y > top ? vc->y : top;
+        top = vb->y;
+    } else if (vc->y < top) {
+        const uint32_t last = c;
+        c = b, b = a, a = last;
+        bottom = vb->y > top ? vb->y : top;
+        top = vc->y;
+    } else {
+        bottom = vb->y > vc->y ? vb->y : vc->y;
+    }
+    if (!box_in_region(t, least3(va->x, vb->x, vc->x), most3(va->x, vb->x, vc->x), top, bottom)) {
         t->stats.faces_outside++;
         return BIN_OK;
     }
     record_t *record = record_claim(t);
     if (TUILE_UNLIKELY(record == NULL)) { return BIN_FULL; }
-    const vertex_t *top = v0, *next = v1, *last = v2;
-    if (v1->y < v0->y && v1->y <= v2->y) {
-        top = v1, next = v2, last = v0;
-    } else if (v2->y < v0->y && v2->y <= v1->y) {
-        top = v2, next = v0, last = v1;
-    }
-    record->v0 = (uint16_t)(top - t->vertices);
-    record->d1 = (int8_t)(next - top);
-    record->d2 = (int8_t)(last - top);
+    record->v0 = (uint16_t)(base + a);
+    record->d1 = (int8_t)(b - a);
+    record->d2 = (int8_t)(c - a);
     record->material = (uint8_t)(material + t->material_base);
     record->light = normal ? flat_light(t, normal, back) : 0;
-    record_emit(t, record, edge_row(top->y), id);
+    record_emit(t, record, edge_row(top), id);
     return BIN_OK;
 }
 
@@ -164,10 +176,10 @@ static TUILE_NOINLINE int bin_clipped(tuile_t *t, const cluster_t *cluster, cons
     bool lit_alike = true;
     for (int i = 1; i < left; i++) { lit_alike &= (uint8_t)out[i].depth_light == (uint8_t)out[0].depth_light; }
     if (left == 3) {
-        result = bin_triangle(t, &out[0], &out[1], &out[2], material, normal, id);
+        result = bin_triangle(t, mark, 0, 1, 2, material, normal, id);
     } else if (normal == NULL && !lit_alike && left <= 100) {
-        for (int i = 1; i + 1 < left && result == BIN_OK; i++) {
-            result = bin_triangle(t, &out[0], &out[i], &out[i + 1], material, NULL, id);
+        for (uint32_t i = 1; i + 1 < (uint32_t)left && result == BIN_OK; i++) {
+            result = bin_triangle(t, mark, 0, i, i + 1, material, NULL, id);
         }
     } else {
         const polygon_ring_t ring = {out, NULL, NULL, (uint32_t)left};
@@ -179,14 +191,16 @@ static TUILE_NOINLINE int bin_clipped(tuile_t *t, const cluster_t *cluster, cons
 
 static int bin_triangles(tuile_t *t, const cluster_t *cluster, unsigned count) {
     const uint8_t *face = cluster->faces;
-    const int8_t *normal = cluster->face_normals;
-    for (unsigned f = 0; f < count; f++, face += 4, normal += normal ? 3 : 0) {
-        const vertex_t *v0 = &cluster->vertices[face[0]], *v1 = &cluster->vertices[face[1]], *v2 = &cluster->vertices[face[2]];
+    const uint32_t base = (uint32_t)(cluster->vertices - t->vertices);
+    for (unsigned f = 0; f < count; f++, face += 4) {
+        const vertex_t *v = cluster->vertices;
+        const int8_t *normal = cluster->face_normals ? cluster->face_normals + 3 * f : NULL;
         int result;
-        if (TUILE_UNLIKELY(v0->x == VERTEX_OUTSIDE || v1->x == VERTEX_OUTSIDE || v2->x == VERTEX_OUTSIDE)) {
+        if (TUILE_UNLIKELY(cluster->any_outside) &&
+            (v[face[0]].x == VERTEX_OUTSIDE || v[face[1]].x == VERTEX_OUTSIDE || v[face[2]].x == VERTEX_OUTSIDE)) {
             result = bin_clipped(t, cluster, face, 3, face[3], normal, cluster->first_face + f);
         } else {
-            result = bin_triangle(t, v0, v1, v2, face[3], normal, cluster->first_face + f);
+            result = bin_triangle(t, base, face[0], face[1], face[2], face[3], normal, cluster->first_face + f);
         }
         if (TUILE_UNLIKELY(result != BIN_OK)) { return result; }
     }
@@ -201,7 +215,7 @@ static int bin_far_triangle(tuile_t *t, const cluster_t *cluster, const uint8_t 
     const uint32_t binned = t->record_count;
     for (unsigned i = 0; i < 3; i++) { v[i] = cluster->vertices[corners[i]]; }
     t->vertex_count += 3;
-    const int result = bin_triangle(t, &v[0], &v[1], &v[2], material, normal, id);
+    const int result = bin_triangle(t, t->vertex_count - 3, 0, 1, 2, material, normal, id);
     if (t->record_count == binned) { t->vertex_count -= 3; }
     return result;
 }
@@ -233,7 +247,7 @@ static int bin_polygons(tuile_t *t, const cluster_t *cluster, unsigned count) {
             } else if (far_apart && (fan || corners == 3)) {
                 result = bin_far_triangle(t, cluster, part, material, normal, id);
             } else if (fan || corners == 3) {
-                result = bin_triangle(t, &v[part[0]], &v[part[1]], &v[part[2]], material, normal, id);
+                result = bin_triangle(t, (uint32_t)(v - t->vertices), part[0], part[1], part[2], material, normal, id);
             } else {
                 const polygon_ring_t ring = {v, corner, NULL, corners};
                 result = bin_polygon(t, &ring, v, material, normal, id);
@@ -261,16 +275,17 @@ static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
     }
     if (vertices > slots_left(t)) { return BIN_FULL; }
     const uint32_t mark = t->vertex_count, binned = t->record_count;
-    const cluster_t cluster = {
+    cluster_t cluster = {
         bytes,
         model->faces + model_u32(bytes + CLUSTER_AT_FACE_BYTES),
         (const int16_t *)(const void *)model->positions + 3 * (size_t)first_vertex,
         flat ? (const int8_t *)model->face_normals + 3 * (size_t)first_face : NULL,
         t->vertices + mark,
+        false,
         t->face_base + first_face,
     };
-    vertex_stage(&t->transform, cluster.positions, flat ? NULL : (const int8_t *)model->normals + 3 * (size_t)first_vertex, vertices,
-                 cluster.vertices);
+    cluster.any_outside = vertex_stage(&t->transform, cluster.positions, flat ? NULL : (const int8_t *)model->normals + 3 * (size_t)first_vertex,
+                                       vertices, cluster.vertices);
     t->vertex_count += vertices;
     t->stats.vertices += vertices;
     t->stats.faces_tested += faces;

@@ -90,7 +90,7 @@ static void plane_store(transform_plane_t *plane, const wide_row_t *row) {
 
 static void light_vectors(transform_t *transform, const tuile_scene_t *scene, const tuile_instance_t *instance) {
     transform->light_count = scene->light_count;
-    transform->ambient = scene->ambient;
+    transform->ambient = scene->ambient < LIGHT_MIN ? LIGHT_MIN : scene->ambient;
     transform->two_sided = instance->two_sided;
     for (int l = 0; l < scene->light_count; l++) {
         for (int j = 0; j < 3; j++) {
@@ -100,7 +100,7 @@ static void light_vectors(transform_t *transform, const tuile_scene_t *scene, co
             }
             /* normal (127 = 1) . light >> 13 = intensity at full incidence: light = intensity * 2^13 / 127 */
             const int64_t value = ((sum >> 14) * scene->lights[l].intensity * 8192 / 127 + (1 << 29)) >> 30;
-            transform->lights[l][j] = (int16_t)(value > 16512 ? 16512 : value < -16512 ? -16512 : value);
+            transform->lights[l][j] = (int32_t)(value > 16512 ? 16512 : value < -16512 ? -16512 : value);
         }
     }
 }

@@ -9,6 +9,10 @@
 
 #define TRANSFORM_LIGHTS_MAX 8
 
+/* Light at vertices and faces, 255 = 1.0: away from both ends, so that the error of interpolation stays inside. */
+#define LIGHT_MIN 2
+#define LIGHT_MAX 253
+
 /* An affine function of a quantised position q: (sum of m[i] * q[i]) + t, the `fine` value; fine >> 16 is the `coarse` one.
  * |m[i]| < 2^31, and |fine| < 2^46 for every position inside the model's bounding sphere. */
 typedef struct transform_row {
@@ -40,8 +44,9 @@ typedef struct transform {
     int32_t eye[3];    /* perspective: steps >> eye_shift; orthographic: the view direction, |.| <= 2^20 */
     uint8_t eye_shift; /* eyes far away are cut to 21 bits */
     /* Light. */
-    int16_t lights[TRANSFORM_LIGHTS_MAX][3]; /* in model space, towards the light, scaled: (normal . light) >> 13 is 0 ... 255 */
-    uint8_t light_count, ambient;
+    int32_t lights[TRANSFORM_LIGHTS_MAX][3]; /* in model space, towards the light, scaled: (normal . light) >> 13 is 0 ... 255;
+                                                |components| <= 16512 */
+    uint8_t light_count, ambient;            /* ambient >= LIGHT_MIN */
     bool two_sided;
 } transform_t;
 

@@ -53,55 +53,58 @@ TUILE_INLINE int32_t coarse(const transform_row_t *row, int32_t x, int32_t y, in
     return (int32_t)(((int64_t)row->m[0] * x + (int64_t)row->m[1] * y + (int64_t)row->m[2] * z + row->t) >> 16);
 }
 
-static void perspective(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count, vertex_t *out) {
-    const int32_t first = transform->w_fast, range = (int32_t)(transform->w_high >> 16) - first; /* negative: nothing is fast */
+static bool perspective(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count, vertex_t *out) {
+    const int32_t first = transform->w_fast, last = (int32_t)(transform->w_high >> 16);
+    const uint32_t range = last > first ? (uint32_t)(last - first) : 0; /* strictly inside far plane, too */
     const int32_t k = transform->k, depth_shift = transform->depth_shift;
-    const int32_t guard_x = transform->guard_x, guard_y = transform->guard_y;
+    const int32_t low_x = transform->guard_x + GUARD_MARGIN, low_y = transform->guard_y + GUARD_MARGIN;
+    bool any_outside = false;
 
     for (; count; count--, q += 3, out++) {
-        uint8_t light = VERTEX_LIGHT_MIN;
+        uint8_t light = LIGHT_MIN;
         if (normal) {
             light = vertex_light(transform, normal[0], normal[1], normal[2]);
             normal += 3;
         }
         const int32_t w = coarse(&transform->w, q[0], q[1], q[2]);
-        if (TUILE_UNLIKELY(w < first || w - first >= range)) {
+        if (TUILE_UNLIKELY((uint32_t)w - (uint32_t)first >= range)) {
             *out = vertex_from_fine(transform, q, light);
+            any_outside |= out->x == VERTEX_OUTSIDE;
             continue;
         }
         const int32_t n = (int32_t)fixed_clz32((uint32_t)w);
         const uint32_t r = fixed_reciprocal((uint32_t)w << n);
         const unsigned shift = (unsigned)(30 - k - n);
         const int32_t half = (int32_t)(1u << (shift - 1));
-        const int32_t x = ((fixed_mul_high(coarse(&transform->x, q[0], q[1], q[2]), r) + half) >> shift) - guard_x;
-        const int32_t y = ((fixed_mul_high(coarse(&transform->y, q[0], q[1], q[2]), r) + half) >> shift) - guard_y;
+        const int32_t x = (fixed_mul_high(coarse(&transform->x, q[0], q[1], q[2]), r) + half) >> shift;
+        const int32_t y = (fixed_mul_high(coarse(&transform->y, q[0], q[1], q[2]), r) + half) >> shift;
         uint32_t depth = r >> (depth_shift - n);
         if (depth < VERTEX_DEPTH_MIN) { depth = VERTEX_DEPTH_MIN; }
-        if (TUILE_LIKELY((uint32_t)(x - GUARD_MARGIN) < GUARD_SPAN - 2 * GUARD_MARGIN &&
-                         (uint32_t)(y - GUARD_MARGIN) < GUARD_SPAN - 2 * GUARD_MARGIN)) {
-            *out = (vertex_t){(int16_t)(x + guard_x), (int16_t)(y + guard_y), depth << 8 | light};
-        } else {
+        *out = (vertex_t){(int16_t)x, (int16_t)y, depth << 8 | light};
+        if (TUILE_UNLIKELY((uint32_t)(x - low_x) >= GUARD_SPAN - 2 * GUARD_MARGIN || (uint32_t)(y - low_y) >= GUARD_SPAN - 2 * GUARD_MARGIN)) {
             *out = outside(light);
+            any_outside = true;
         }
     }
+    return any_outside;
 }
 
-static void orthographic(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count, vertex_t *out) {
+static bool orthographic(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count, vertex_t *out) {
+    bool any_outside = false;
     for (; count; count--, q += 3, out++) {
-        uint8_t light = VERTEX_LIGHT_MIN;
+        uint8_t light = LIGHT_MIN;
         if (normal) {
             light = vertex_light(transform, normal[0], normal[1], normal[2]);
             normal += 3;
         }
         *out = vertex_from_fine(transform, q, light);
+        any_outside |= out->x == VERTEX_OUTSIDE;
     }
+    return any_outside;
 }
 
-TUILE_NOINLINE void vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count,
+TUILE_NOINLINE bool vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count,
                                  vertex_t *out) {
-    if (transform->perspective) {
-        perspective(transform, positions, normals, count, out);
-    } else {
-        orthographic(transform, positions, normals, count, out);
-    }
+    return transform->perspective ? perspective(transform, positions, normals, count, out)
+                                  : orthographic(transform, positions, normals, count, out);
 }

@@ -5,37 +5,40 @@
 #include "transform.h"
 
 /* x, y: window, 1/16 pixel. x = VERTEX_OUTSIDE: beyond near plane, far plane or guard band; the rest then holds the light only.
- * depth_light: depth in 1/256 step (2 ... 65529 steps) << 8 | light (2 ... 253). */
+ * depth_light: depth in 1/256 step (2 ... 65529 steps) << 8 | light (LIGHT_MIN ... LIGHT_MAX). */
 typedef struct vertex {
     int16_t x, y;
     uint32_t depth_light;
 } vertex_t;
 
 #define VERTEX_OUTSIDE INT16_MIN
-#define VERTEX_LIGHT_MIN 2
-#define VERTEX_LIGHT_MAX 253
 #define VERTEX_DEPTH_MIN 512u
 
 /* A vertex must keep this far from the ends of the guard span, so that clipping at GUARD_CLIP moves no vertex that is in. */
 #define GUARD_MARGIN 16
 #define GUARD_CLIP 8
 
-/* Fills out[0 ... count - 1]. normals: 3 x int8 each, or NULL when no light is wanted at the vertices. */
-void vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out);
+/* Fills out[0 ... count - 1]. normals: 3 x int8 each, or NULL when no light is wanted at the vertices. Returns whether
+ * any of them is outside. */
+bool vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out);
 
 /* Projects fine coordinates (clip-space, 46 bits). False outside near plane, far plane or guard band; with clamp, what lies beyond
  * the guard span is moved to its edge instead. Sets x, y and the depth; light is 0 ... 255. */
 bool vertex_project(const transform_t *transform, int64_t x, int64_t y, int64_t w, uint8_t light, bool clamp, vertex_t *out);
 
-/* Ambient and all directional lights at a normal, in VERTEX_LIGHT_MIN ... MAX (255 = 1.0). */
+/* Ambient and all directional lights at a normal, in LIGHT_MIN ... LIGHT_MAX. */
 TUILE_INLINE uint8_t vertex_light(const transform_t *transform, int32_t nx, int32_t ny, int32_t nz) {
     int32_t sum = transform->ambient;
-    for (unsigned l = 0; l < transform->light_count; l++) {
-        const int16_t *light = transform->lights[l];
-        const int32_t dot = (nx * light[0] + ny * light[1] + nz * light[2]) >> 13; /* |sum| <= 3 * 128 * 16512 < 2^23 */
-        sum += dot > 0 ? dot : transform->two_sided ? -dot : 0;
+    const int32_t(*light)[3] = transform->lights, (*const end)[3] = light + transform->light_count;
+    for (; light != end; light++) {
+        const int32_t dot = (nx * (*light)[0] + ny * (*light)[1] + nz * (*light)[2]) >> 13; /* |sum| <= 3 * 128 * 16512 < 2^23 */
+        if (dot > 0) {
+            sum += dot;
+        } else if (transform->two_sided) {
+            sum -= dot;
+        }
     }
-    return (uint8_t)(sum < VERTEX_LIGHT_MIN ? VERTEX_LIGHT_MIN : sum > VERTEX_LIGHT_MAX ? VERTEX_LIGHT_MAX : sum);
+    return (uint8_t)(sum > LIGHT_MAX ? LIGHT_MAX : sum);
 }
 
 #endif

@@ -28,10 +28,9 @@ static polygon_ring_t record_ring(const tuile_t *t, const record_t *record) {
     return (polygon_ring_t){t->vertices + slot->base, slot->listed ? (const uint8_t *)(slot + 1) : NULL, NULL, slot->count};
 }
 
-/* Colour, material of the ramp, or id. */
+/* Colour or id. */
 static uint32_t face_value(const tuile_t *t, const record_t *record) {
     if (t->span_kind == SPAN_IDS) { return frame_record_id(record); }
-    if (t->span_kind == SPAN_GOURAUD && is_triangle(record)) { return record->material; }
     return resolve_lit(t->config.format, frame_material(t, record->material), record->light);
 }
 
@@ -40,10 +39,9 @@ TUILE_INLINE bool state_start(tuile_t *t, state_t *state, const record_t *record
     t->stats.faces_setup++;
     if (TUILE_LIKELY(is_triangle(record))) {
         const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
-        const int32_t x1 = v1->x - v0->x, y1 = v1->y - v0->y, x2 = v2->x - v0->x, y2 = v2->y - v0->y;
-        triangle_start(&state->triangle, v0, v1, v2, x2 * y1 - x1 * y2, row, t->span_kind == SPAN_GOURAUD);
+        triangle_start(&state->triangle, v0, v1, v2, row, t->span_kind == SPAN_GOURAUD);
         state->triangle.size_bytes = (sizeof(triangle_t) + 7u) & ~7u;
-        state->triangle.value = face_value(t, record);
+        state->triangle.value = t->span_kind == SPAN_GOURAUD ? record->material : face_value(t, record);
     } else {
         const polygon_ring_t ring = record_ring(t, record);
         if (!polygon_start(&state->polygon, &ring, row)) { return false; }
