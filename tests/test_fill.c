@@ -632,19 +632,19 @@ static void coverage_of_a_million_polygons_is_exact(void **state) {
     for (int round = 0; round < CHECK_ROUNDS(1 << 20); round++) {
         int32_t points[24][2];
         polygon_chain_t chains[16];
-        const uint32_t count = (uint32_t)random_between(&random, 3, random_one_in(&random, 2) ? 5 : 24);
-        const int32_t size = random_between(&random, 1, random_one_in(&random, 4) ? 30 : 12);
+        const uint32_t count = (uint32_t)random_between(&random, 3, random_one_in(&random, 4) ? 24 : 5);
+        const int32_t size = random_between(&random, 1, random_one_in(&random, 16) ? 30 : 8);
         random_points(&random, points, count, size, 32767 * 16);
         assert_int_equal(coverage_reference(&expected, (const int32_t(*)[2])points, count, size, size), 0);
         const polygon_ring_t ring = {NULL, NULL, (const q28_4_t(*)[2])points, count};
         comparison_t comparison = {&expected, 0, 0};
-        const unsigned capacity = random_one_in(&random, 4) ? (unsigned)random_between(&random, 0, 16) : 16;
+        const unsigned capacity = random_one_in(&random, 8) ? (unsigned)random_between(&random, 0, 16) : 16;
         polygon_coverage(&ring, size, size, chains, capacity, compare_span, &comparison);
         assert_int_equal(comparison.wrong, 0);
         assert_int_equal(comparison.at, expected.count);
         spans += expected.count;
     }
-    assert_true(spans > (uint64_t)CHECK_ROUNDS(1 << 20)); /* it was about something */
+    assert_true(spans > (uint64_t)CHECK_ROUNDS(1 << 20) / 2); /* it was about something */
     coverage_reference_free(&expected);
 }
 
@@ -723,7 +723,7 @@ static void polygons_of_the_frame_path_cover_exactly(void **state) {
 
 static void polygons_of_more_chains_than_fit_cover_exactly(void **state) {
     (void)state;
-    check_frame_coverage(5, 16, CORNERS_MAX, CHECK_ROUNDS(25000));
+    check_frame_coverage(5, 16, CORNERS_MAX, CHECK_ROUNDS(4000));
 }
 
 /* ---- meshes ------------------------------------------------------------------------------------------------------------------- */
@@ -1103,7 +1103,7 @@ static void depth_of_uneven_polygons_stays_in_their_range(void **state) {
     random_source_t random = random_seed(13);
     uint64_t pixels = 0;
     (void)state;
-    for (int round = 0; round < CHECK_ROUNDS(100000); round++) {
+    for (int round = 0; round < CHECK_ROUNDS(20000); round++) {
         enum { SIZE = 16 };
         static canvas_t canvas;
         int32_t points[24][2];
@@ -1126,7 +1126,7 @@ static void depth_of_uneven_polygons_stays_in_their_range(void **state) {
             pixels++;
         }
     }
-    assert_true(pixels > 10000);
+    assert_true(pixels > 1000);
 }
 
 int main(void) {

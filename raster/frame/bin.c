@@ -115,6 +115,12 @@ TUILE_INLINE int bin_triangle(tuile_t *t, uint32_t base, uint32_t a, uint32_t b,
     return BIN_OK;
 }
 
+/* The same for the rarer callers, so that it is not inlined once more for each. */
+static TUILE_NOINLINE int bin_one_triangle(tuile_t *t, uint32_t base, uint32_t a, uint32_t b, uint32_t c, uint8_t material,
+                                           const int8_t *normal, uint32_t id) {
+    return bin_triangle(t, base, a, b, c, material, normal, id);
+}
+
 /* A polygon of more than three corners. listed: corners are relative to `base`; else they follow on one another from base. */
 static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *base, uint8_t material, const int8_t *normal, uint32_t id) {
     int64_t area = 0;
@@ -176,10 +182,10 @@ static TUILE_NOINLINE int bin_clipped(tuile_t *t, const cluster_t *cluster, cons
     bool lit_alike = true;
     for (int i = 1; i < left; i++) { lit_alike &= (uint8_t)out[i].depth_light == (uint8_t)out[0].depth_light; }
     if (left == 3) {
-        result = bin_triangle(t, mark, 0, 1, 2, material, normal, id);
+        result = bin_one_triangle(t, mark, 0, 1, 2, material, normal, id);
     } else if (normal == NULL && !lit_alike && left <= 100) {
         for (uint32_t i = 1; i + 1 < (uint32_t)left && result == BIN_OK; i++) {
-            result = bin_triangle(t, mark, 0, i, i + 1, material, NULL, id);
+            result = bin_one_triangle(t, mark, 0, i, i + 1, material, NULL, id);
         }
     } else {
         const polygon_ring_t ring = {out, NULL, NULL, (uint32_t)left};
@@ -189,19 +195,29 @@ static TUILE_NOINLINE int bin_clipped(tuile_t *t, const cluster_t *cluster, cons
     return result;
 }
 
+/* The loop that most faces go through: no vertex of the cluster is outside. */
 static int bin_triangles(tuile_t *t, const cluster_t *cluster, unsigned count) {
+    const uint8_t *face = cluster->faces;
+    const int8_t *normal = cluster->face_normals;
+    const unsigned normal_step = normal ? 3 : 0;
+    const uint32_t base = (uint32_t)(cluster->vertices - t->vertices);
+    for (unsigned f = 0; f < count; f++, face += 4, normal += normal_step) {
+        const int result = bin_triangle(t, base, face[0], face[1], face[2], face[3], normal, cluster->first_face + f);
+        if (TUILE_UNLIKELY(result != BIN_OK)) { return result; }
+    }
+    return BIN_OK;
+}
+
+static TUILE_NOINLINE int bin_outside_triangles(tuile_t *t, const cluster_t *cluster, unsigned count) {
     const uint8_t *face = cluster->faces;
     const uint32_t base = (uint32_t)(cluster->vertices - t->vertices);
     for (unsigned f = 0; f < count; f++, face += 4) {
         const vertex_t *v = cluster->vertices;
         const int8_t *normal = cluster->face_normals ? cluster->face_normals + 3 * f : NULL;
-        int result;
-        if (TUILE_UNLIKELY(cluster->any_outside) &&
-            (v[face[0]].x == VERTEX_OUTSIDE || v[face[1]].x == VERTEX_OUTSIDE || v[face[2]].x == VERTEX_OUTSIDE)) {
-            result = bin_clipped(t, cluster, face, 3, face[3], normal, cluster->first_face + f);
-        } else {
-            result = bin_triangle(t, base, face[0], face[1], face[2], face[3], normal, cluster->first_face + f);
-        }
+        const bool outside = v[face[0]].x == VERTEX_OUTSIDE || v[face[1]].x == VERTEX_OUTSIDE || v[face[2]].x == VERTEX_OUTSIDE;
+        const uint32_t id = cluster->first_face + f;
+        const int result = outside ? bin_clipped(t, cluster, face, 3, face[3], normal, id)
+                                   : bin_one_triangle(t, base, face[0], face[1], face[2], face[3], normal, id);
         if (TUILE_UNLIKELY(result != BIN_OK)) { return result; }
     }
     return BIN_OK;
@@ -215,7 +231,7 @@ static int bin_far_triangle(tuile_t *t, const cluster_t *cluster, const uint8_t 
     const uint32_t binned = t->record_count;
     for (unsigned i = 0; i < 3; i++) { v[i] = cluster->vertices[corners[i]]; }
     t->vertex_count += 3;
-    const int result = bin_triangle(t, t->vertex_count - 3, 0, 1, 2, material, normal, id);
+    const int result = bin_one_triangle(t, t->vertex_count - 3, 0, 1, 2, material, normal, id);
     if (t->record_count == binned) { t->vertex_count -= 3; }
     return result;
 }
@@ -247,7 +263,7 @@ static int bin_polygons(tuile_t *t, const cluster_t *cluster, unsigned count) {
             } else if (far_apart && (fan || corners == 3)) {
                 result = bin_far_triangle(t, cluster, part, material, normal, id);
             } else if (fan || corners == 3) {
-                result = bin_triangle(t, (uint32_t)(v - t->vertices), part[0], part[1], part[2], material, normal, id);
+                result = bin_one_triangle(t, (uint32_t)(v - t->vertices), part[0], part[1], part[2], material, normal, id);
             } else {
                 const polygon_ring_t ring = {v, corner, NULL, corners};
                 result = bin_polygon(t, &ring, v, material, normal, id);
@@ -289,8 +305,9 @@ static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
     t->vertex_count += vertices;
     t->stats.vertices += vertices;
     t->stats.faces_tested += faces;
-    const int result = bytes[CLUSTER_AT_KIND] == MODEL_CLUSTER_TRIANGLES ? bin_triangles(t, &cluster, faces)
-                                                                          : bin_polygons(t, &cluster, faces);
+    const int result = bytes[CLUSTER_AT_KIND] != MODEL_CLUSTER_TRIANGLES ? bin_polygons(t, &cluster, faces)
+                       : cluster.any_outside                             ? bin_outside_triangles(t, &cluster, faces)
+                                                                         : bin_triangles(t, &cluster, faces);
     if (t->record_count == binned) { t->vertex_count = mark; } /* none of its faces is left: nor need its vertices be */
     return result;
 }
