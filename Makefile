@@ -9,19 +9,24 @@ BUILD := build
 VARIANT := release
 OBJ := $(BUILD)/$(VARIANT)
 
+ifeq ($(VARIANT),clang)
+CC := clang
+endif
+
 WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes \
         -Wcast-qual -Wwrite-strings -Wundef -Wvla -Werror
 CFLAGS_CORE := -std=c11 -O2 -g -ffreestanding $(WARN)
 CFLAGS_HOST := -std=c11 -O2 -g -D_GNU_SOURCE $(WARN)
+# What gcc computes behind a loop costs more than the loops of small faces save (measured: DESIGN.md, Speed).
+ifneq (,$(findstring gcc,$(CC)))
+CFLAGS_CORE += -fno-tree-scev-cprop -fno-tree-slp-vectorize
+endif
 LIBS_SIM := -lassimp -lmeshoptimizer -lpng -lm
 LIBS_TEST := -lcmocka
 ifeq ($(VARIANT),asan)
 CFLAGS_CORE += -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 CFLAGS_HOST += -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 LDFLAGS += -fsanitize=address,undefined
-endif
-ifeq ($(VARIANT),clang)
-CC := clang
 endif
 
 CORE_SRC := $(wildcard raster/*.c raster/*/*.c hal/*.c hal/*/*.c) firmware/stream.c
@@ -74,28 +79,106 @@ $(BUILD)/need/format: ; $(call need,clang-format,formatting)
 # ---- objects and programs ------------------------------------------------------------------------------------------
 $(CORE_OBJ): $(OBJ)/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS_CORE) -MMD -MP -c $< -o $@
+	@echo "  $(notdir $(CC)) $<"; $(CC) $(CFLAGS_CORE) -MMD -MP -c $< -o $@
 
 $(OBJ)/sim/%.o: sim/%.c | $(BUILD)/need/sim
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS_HOST) -MMD -MP -c $< -o $@
+	@echo "  $(notdir $(CC)) $<"; $(CC) $(CFLAGS_HOST) -MMD -MP -c $< -o $@
 
 $(OBJ)/tests/%.o: tests/%.c | $(BUILD)/need/test $(BUILD)/need/sim
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS_HOST) -MMD -MP -c $< -o $@
+	@echo "  $(notdir $(CC)) $<"; $(CC) $(CFLAGS_HOST) -MMD -MP -c $< -o $@
 
 $(TUILE): $(SIM_OBJ) $(CORE_OBJ)
-	$(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
 
 $(OBJ)/test_reference: $(OBJ)/tests/reference/selftest.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
-	$(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@
 
 $(OBJ)/test_%: $(OBJ)/tests/test_%.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
-	$(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@
 
 $(OBJ)/tests/fuzz_%.o: CFLAGS_HOST += -DFUZZ_DRIVER
 $(OBJ)/fuzz_%: $(OBJ)/tests/fuzz_%.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
-	$(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
 
 .SECONDARY:
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
+
+# ---- models from Debian packages: downloaded and unpacked under build/, not installed ------------------------------
+MODELS := $(BUILD)/models
+SPIDER := $(MODELS)/assimp-testmodels/usr/share/assimp/models/OBJ/spider.obj
+BUNNY := $(MODELS)/glmark2-data/usr/share/glmark2/models/bunny.obj
+BUNNY_6000 := $(MODELS)/bunny6000.tuile
+
+define fetch
+	@mkdir -p $(MODELS)/$(1)
+	@echo "Fetching the Debian package $(1) for $(2) (unpacked under $(MODELS), not installed)"
+	@cd $(MODELS)/$(1) && { apt-get download -qq $(1) 2>/dev/null || { $(SUDO) apt-get update -qq && apt-get download -qq $(1) 2>/dev/null; }; } && \
+	  dpkg-deb -x $(1)_*.deb . && rm -f $(1)_*.deb && touch $(abspath $(3))
+endef
+
+$(SPIDER): ; $(call fetch,assimp-testmodels,spider.obj,$(SPIDER))
+$(BUNNY): ; $(call fetch,glmark2-data,bunny.obj,$(BUNNY))
+$(BUNNY_6000): $(BUNNY) $(TUILE)
+	$(TUILE) mesh $(BUNNY) -o $@ --max-faces 6000
+
+# ---- demo ----------------------------------------------------------------------------------------------------------
+demo: $(TUILE) $(SPIDER) $(BUNNY_6000) ## two real models on the simulated panel, 36 frames each, as pictures in build/demo
+	@mkdir -p $(BUILD)/demo
+	$(TUILE) render $(SPIDER) --frames 36 --background 182030 --out $(BUILD)/demo/spider-%02d.png --sheet $(BUILD)/demo/spider.png
+	$(TUILE) render $(BUNNY_6000) --frames 36 --shade gouraud --background 302018 --memory 64K --out $(BUILD)/demo/bunny-%02d.png --sheet $(BUILD)/demo/bunny.png
+	@echo "Pictures: $(BUILD)/demo/*.png; contact sheets: $(BUILD)/demo/spider.png and $(BUILD)/demo/bunny.png"
+
+# ---- tests ---------------------------------------------------------------------------------------------------------
+RUN_TESTS = for t in $(1); do echo "== $$t"; TUILE=$(TUILE) SPIDER=$(SPIDER) BUNNY_6000=$(BUNNY_6000) BUILD=$(BUILD) $$t || exit 1; done
+
+check: $(TESTS) $(FUZZERS) $(TUILE) $(SPIDER) $(BUNNY_6000)
+	@$(call RUN_TESTS,$(FUZZERS))
+	@$(call RUN_TESTS,$(TESTS))
+
+test: ## builds and passes everything: gcc, sanitizers, clang
+	$(MAKE) --no-print-directory check objects
+	$(MAKE) --no-print-directory check VARIANT=asan
+	$(MAKE) --no-print-directory test-clang
+	@echo "All test programs passed, with gcc, under ASan + UBSan, and built by clang."
+
+test-asan: ## all tests under ASan and UBSan
+	$(MAKE) --no-print-directory check VARIANT=asan
+
+test-clang: $(BUILD)/need/clang ## the simulator and all tests built by clang
+	$(MAKE) --no-print-directory clang-programs VARIANT=clang
+	@$(call RUN_TESTS,$(BUILD)/clang/test_fill $(BUILD)/clang/test_golden)
+
+.PHONY: clang-programs objects
+clang-programs: $(TESTS) $(TUILE)
+
+# No heap, no float, no state: proved on the objects of raster/, hal/ and the frame loop.
+objects: $(CORE_OBJ)
+	@sh tests/objects.sh $(CORE_OBJ)
+
+# ---- figures -------------------------------------------------------------------------------------------------------
+SIZE ?= 320x240
+TILE ?= 320x24 32x32 320x240
+MODEL ?= $(SPIDER) $(BUNNY_6000)
+$(OBJ)/bench: $(OBJ)/tests/bench/bench.o $(SIM_LIB_OBJ) $(CORE_OBJ)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
+
+bench: $(OBJ)/bench $(BUILD)/need/bench $(filter $(BUILD)/%,$(MODEL)) ## instructions per frame by callgrind; MODEL=FILE ... TILE=WxH ... SIZE=WxH
+	@sh tests/bench/bench.sh $(OBJ)/bench $(BUILD)/bench $(SIZE) $(TILE) -- $(MODEL)
+
+size: $(CORE_OBJ) ## code size of each part, and that no part has data of its own
+	@size $(CORE_OBJ) | awk 'NR == 1 { print; next } { print; text += $$1; data += $$2; bss += $$3 } \
+	  END { print text "\t" data "\t" bss "\t\t\ttotal"; exit data + bss > 0 }'
+
+FORMATTED := $(shell git ls-files '*.c' '*.h' 2>/dev/null)
+format: $(BUILD)/need/format ## clang-format all sources
+	clang-format -i $(FORMATTED)
+
+lint: $(BUILD)/need/lint $(BUILD)/need/sim $(BUILD)/need/test ## clang-tidy and cppcheck
+	clang-tidy --quiet --warnings-as-errors='*' $(filter-out hal/template/%,$(CORE_SRC)) $(SIM_SRC) -- -std=c11 -D_GNU_SOURCE
+	cppcheck --quiet --error-exitcode=1 --std=c11 --inline-suppr --enable=warning,performance,portability \
+	  --suppress=missingIncludeSystem $(CORE_SRC) $(SIM_SRC)
+
+clean: ## remove build/
+	rm -rf $(BUILD)

@@ -71,6 +71,16 @@ static void row_store(transform_row_t *out, const wide_row_t *row, int32_t expon
     out->t = wide_to_integer(row->t, exponent);
 }
 
+/* By how much rounding the entries of a row may have moved a fine value. */
+static int64_t row_slack(const tuile_model_t *model) {
+    int64_t reach = 0; /* sum of |q| over the axes */
+    for (int i = 0; i < 3; i++) {
+        const int32_t most = (model->centre[i] < 0 ? -model->centre[i] : model->centre[i]) + model->radius;
+        reach += most < 32768 ? most : 32768;
+    }
+    return reach / 2 + 2;
+}
+
 static void plane_store(transform_plane_t *plane, const wide_row_t *row) {
     int32_t bits = -32768;
     uint64_t squares = 0;
@@ -172,14 +182,16 @@ static int perspective_rows(transform_t *transform, const tuile_camera_t *camera
     if (k > 32 || ew < 23) { return TUILE_ERROR_RANGE; } /* the model reaches 2^22 times farther than the near plane */
     transform->k = (int8_t)k;
     transform->depth_shift = (int8_t)(54 - ew);
-    transform->w_low = wide_to_integer(wide_multiply(near, factor), ew);
-    transform->w_high = wide_to_integer(wide_multiply(q16(camera->far), factor), ew);
+    /* A vertex that lies in the near or far plane is inside, whatever rounding says. */
+    transform->w_low = wide_to_integer(wide_multiply(near, factor), ew) - row_slack(model);
+    transform->w_high = wide_to_integer(wide_multiply(q16(camera->far), factor), ew) + row_slack(model);
     const int64_t limit = ((int64_t)1 << 46) - 1;
     if (transform->w_high > limit) { transform->w_high = limit; }
     /* From 2^(k + 5) on, a coarse unit of X is worth 1/32 unit of the window; from 2^20 on, one of W 1/16 depth step. */
     int32_t fast = k + 5 > 20 ? k + 5 : 20;
     transform->w_fast = fast < 30 ? (int32_t)1 << fast : INT32_MAX;
-    if (transform->w_fast <= transform->w_low >> 16) { transform->w_fast = (int32_t)(transform->w_low >> 16) + 1; }
+    const int64_t at_near = wide_to_integer(wide_multiply(near, factor), ew - 16);
+    if (transform->w_fast <= at_near) { transform->w_fast = (int32_t)at_near + 1; }
     return TUILE_OK;
 }
 

@@ -29,7 +29,7 @@ TUILE_NOINLINE bool vertex_project(const transform_t *transform, int64_t x, int6
         wy = ((y >> (shift - 1)) + 1) >> 1;
         depth = w >> transform->depth_shift;
     }
-    if (depth < VERTEX_DEPTH_MIN) { depth = VERTEX_DEPTH_MIN; }
+    depth = depth < VERTEX_DEPTH_MIN ? VERTEX_DEPTH_MIN : depth > VERTEX_DEPTH_MAX ? VERTEX_DEPTH_MAX : depth;
     wx -= transform->guard_x;
     wy -= transform->guard_y;
     if (clamp) {

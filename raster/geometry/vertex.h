@@ -13,6 +13,7 @@ typedef struct vertex {
 
 #define VERTEX_OUTSIDE INT16_MIN
 #define VERTEX_DEPTH_MIN 512u
+#define VERTEX_DEPTH_MAX (65529u * 256u)
 
 /* A vertex must keep this far from the ends of the guard span, so that clipping at GUARD_CLIP moves no vertex that is in. */
 #define GUARD_MARGIN 16

@@ -198,6 +198,23 @@ static void newell(const int32_t (*points)[3], size_t count, int64_t normal[3]) 
     }
 }
 
+/* The plane's normal of a polygon that crosses itself so that Newell's sum vanishes (a bow tie still covers pixels): from its first
+ * three corners that are not in line. False when all are. */
+static bool first_normal(const int32_t (*points)[3], size_t count, int64_t normal[3]) {
+    for (size_t i = 2; i < count; i++) {
+        for (size_t j = 1; j < i; j++) {
+            const int32_t corner[3][3] = {{points[0][0], points[0][1], points[0][2]},
+                                          {points[j][0], points[j][1], points[j][2]},
+                                          {points[i][0], points[i][1], points[i][2]}};
+            newell(corner, 3, normal);
+            if (normal[0] || normal[1] || normal[2]) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 /* dot(cross(b - a, c - a), normal) > 0; each factor of the sum is below 2^63, their product below 2^100. */
 static bool turns_left(const int32_t a[3], const int32_t b[3], const int32_t c[3], const int64_t normal[3]) {
     const int32_t corners[3][3] = {{a[0], a[1], a[2]}, {b[0], b[1], b[2]}, {c[0], c[1], c[2]}};
@@ -234,7 +251,7 @@ static int emit(work_t *w, const mesh_face_t *from, const uint32_t *pick, size_t
         {w->points[pick ? pick[2] : 2][0], w->points[pick ? pick[2] : 2][1], w->points[pick ? pick[2] : 2][2]}};
     const int32_t(*points)[3] = pick ? triangle : (const int32_t(*)[3])w->points;
     newell(points, count, face.normal);
-    if (!face.normal[0] && !face.normal[1] && !face.normal[2]) {
+    if (!face.normal[0] && !face.normal[1] && !face.normal[2] && (count == 3 || !first_normal(points, count, face.normal))) {
         return 0;
     }
     face.convex = count == 3 || convex(points, count, face.normal);
