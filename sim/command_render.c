@@ -403,6 +403,7 @@ static int draw_frame(render_t *r, unsigned frame) {
 
 static void progress(unsigned done, unsigned of) {
     char bar[37];
+    if (!isatty(STDERR_FILENO) && done < of) { return; }
     const unsigned filled = done * 36 / of;
     for (unsigned i = 0; i < 36; i++) { bar[i] = i < filled ? '#' : '.'; }
     bar[36] = '\0';

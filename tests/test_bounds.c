@@ -102,13 +102,12 @@ static void triangles_at_the_ends_of_everything(void **state) {
             const uint32_t z = random_one_in(&random, 2) ? VERTEX_DEPTH_MIN : random_one_in(&random, 2) ? 65529u * 256 : VERTEX_DEPTH_MIN + (1u << 17) - 1;
             v[i] = (vertex_t){(int16_t)at[0], (int16_t)at[1], z << 8 | (random_one_in(&random, 2) ? LIGHT_MIN : LIGHT_MAX)};
         }
-        int32_t area = (v[2].x - v[0].x) * (v[1].y - v[0].y) - (v[1].x - v[0].x) * (v[2].y - v[0].y);
+        const int32_t area = (v[2].x - v[0].x) * (v[1].y - v[0].y) - (v[1].x - v[0].x) * (v[2].y - v[0].y);
         if (area == 0) { continue; }
         if (area < 0) {
             const vertex_t swap = v[1];
             v[1] = v[2];
             v[2] = swap;
-            area = -area;
         }
         const int top = v[1].y < v[0].y && v[1].y <= v[2].y ? 1 : v[2].y < v[0].y && v[2].y <= v[1].y ? 2 : 0;
         const vertex_t *v0 = &v[top], *v1 = &v[(top + 1) % 3], *v2 = &v[(top + 2) % 3];
@@ -116,7 +115,7 @@ static void triangles_at_the_ends_of_everything(void **state) {
         if (begin >= end) { continue; }
         const int32_t first = random_one_in(&random, 3) ? INT16_MIN : random_one_in(&random, 2) ? end - 1 : random_between(&random, begin, end - 1);
         triangle_t t;
-        triangle_start(&t, v0, v1, v2, area, first, true);
+        triangle_start(&t, v0, v1, v2, first, true);
         t.value = 1;
         const int32_t left = random_one_in(&random, 2) ? t.left : random_between(&random, t.left, t.right);
         const raster_tile_t tile = {depth, colour, left, t.row, left + SIZE, t.row + SIZE, SIZE};

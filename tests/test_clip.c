@@ -17,12 +17,14 @@ typedef struct view {
     tuile_scene_t scene;
     transform_t transform;
     int32_t width, height;
+    bool slack; /* judge with the planes where they are, not where they were asked for */
 } view_t;
 
 static void view_clear(view_t *v, int32_t width, int32_t height) {
     memset(v, 0, sizeof *v);
     v->width = width;
     v->height = height;
+    v->slack = true;
     v->model.step = TUILE_SCALE_ONE;
     v->model.radius = 57000;
     v->instance.model = &v->model;
@@ -239,10 +241,13 @@ static void exact_cut(shape_t *s, const real_t a[4]) {
 static void exact_clip(const view_t *v, const int16_t (*q)[3], const unsigned *corners, unsigned count, real_t margin, shape_t *s) {
     const tuile_camera_t *c = &v->scene.camera;
     const real_t fx = c->focal_x / 65536.0L, fy = c->focal_y / 65536.0L, cx = c->centre_x / 65536.0L, cy = c->centre_y / 65536.0L;
+    /* Near and far plane stand apart by what rounding the matrix may move a position: half a unit of the fine w for each of at most
+     * 3 * 32768 steps, and 2. A fine unit of w is 2^-(54 - depth_shift) of (65528 / 65536) near. */
+    const real_t slack = v->slack ? (3 * 32768 / 2 + 2) * ldexpl(c->near / 65536.0L * 65528 / 65536, v->transform.depth_shift - 54) : 0;
     s->count = (int)count;
     for (unsigned i = 0; i < count; i++) { exact_view(v, q[corners[i]], s->p[i]); }
-    exact_cut(s, (const real_t[4]){0, 0, -1, -c->near / 65536.0L});
-    exact_cut(s, (const real_t[4]){0, 0, 1, c->far / 65536.0L});
+    exact_cut(s, (const real_t[4]){0, 0, -1, slack - c->near / 65536.0L});
+    exact_cut(s, (const real_t[4]){0, 0, 1, slack + c->far / 65536.0L});
     /* left: cx + fx x / w >= -margin, w = -z */
     exact_cut(s, (const real_t[4]){fx, 0, -(cx + margin), 0});
     exact_cut(s, (const real_t[4]){-fx, 0, -(v->width + margin - cx), 0});

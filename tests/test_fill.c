@@ -70,7 +70,7 @@ static bool face_to_triangle(face_t *face) {
     return true;
 }
 
-static bool face_start(const face_t *face, face_state_t *state, int32_t row) {
+static bool face_start(const face_t *face, face_state_t *state, int32_t row, span_kind_t kind) {
     int32_t bottom = INT32_MIN, top = INT32_MAX;
     for (uint32_t i = 0; i < face->count; i++) {
         bottom = corner(face, i)->y > bottom ? corner(face, i)->y : bottom;
@@ -80,7 +80,7 @@ static bool face_start(const face_t *face, face_state_t *state, int32_t row) {
     memset(state, 0xa5, sizeof *state);
     if (face->as_triangle) {
         const vertex_t *v0 = corner(face, 0), *v1 = corner(face, 1), *v2 = corner(face, 2);
-        triangle_start(&state->triangle, v0, v1, v2, triangle_area(v0, v1, v2), row, false);
+        triangle_start(&state->triangle, v0, v1, v2, row, kind == SPAN_GOURAUD);
         state->triangle.value = 1;
         return true;
     }
@@ -101,20 +101,25 @@ static void face_skip(const face_t *face, face_state_t *state, int32_t row) {
 
 /* Draws one tile from the state and copies it to the canvas. Pixels beside and behind the tile must not change. */
 static void face_fill_tile(const face_t *face, face_state_t *state, canvas_t *canvas, int32_t left, int32_t top, int32_t width,
-                           int32_t height) {
-    static uint16_t depth[(CANVAS_PX + 2) * CANVAS_PX];
+                           int32_t height, span_kind_t kind) {
+    static uint16_t depth[(CANVAS_PX + 2) * CANVAS_PX], colours[(CANVAS_PX + 2) * CANVAS_PX], ramp[64];
     static uint32_t ids[(CANVAS_PX + 2) * CANVAS_PX];
+    if (ramp[0] == 0) {
+        for (int i = 0; i < 64; i++) { ramp[i] = 1; }
+    }
     const int32_t stride = width + 2;
     memset(depth, 0, sizeof depth[0] * (size_t)(stride * height));
     memset(ids, 0, sizeof ids[0] * (size_t)(stride * height));
-    const raster_tile_t tile = {depth, ids, left, top, left + width, top + height, stride};
+    memset(colours, 0, sizeof colours[0] * (size_t)(stride * height));
+    const raster_tile_t tile = {depth, kind == SPAN_IDS ? (void *)ids : colours, left, top, left + width, top + height, stride};
     if (face->as_triangle) {
         if (state->triangle.row >= tile.bottom || state->triangle.row >= state->triangle.row_end) { return; }
-        triangle_fill(&state->triangle, &tile, SPAN_IDS, false, NULL);
+        triangle_fill(&state->triangle, &tile, kind, false, ramp);
     } else {
         const polygon_ring_t ring = face_ring(face);
-        polygon_fill(&state->polygon, &ring, &tile, SPAN_IDS, false);
+        polygon_fill(&state->polygon, &ring, &tile, kind == SPAN_IDS ? SPAN_IDS : SPAN_FLAT, false);
     }
+    for (int32_t i = 0; kind != SPAN_IDS && i < stride * height; i++) { ids[i] = colours[i]; }
     for (int32_t y = 0; y < height; y++) {
         assert_int_equal(ids[y * stride + width], 0);
         assert_int_equal(ids[y * stride + width + 1], 0);
@@ -127,7 +132,7 @@ static void face_fill_tile(const face_t *face, face_state_t *state, canvas_t *ca
 }
 
 /* Tiles start at the canvas's corner. */
-static void face_draw(const face_t *face, canvas_t *canvas, int32_t tile_width, int32_t tile_height, policy_t policy) {
+static void face_draw_kind(const face_t *face, canvas_t *canvas, int32_t tile_width, int32_t tile_height, policy_t policy, span_kind_t kind) {
     face_state_t state;
     bool started = false;
     memset(canvas->ids, 0, sizeof canvas->ids[0] * (size_t)(canvas->width * canvas->height));
@@ -135,18 +140,22 @@ static void face_draw(const face_t *face, canvas_t *canvas, int32_t tile_width, 
     for (int32_t y = 0; y < canvas->height; y += tile_height) {
         const int32_t height = canvas->height - y < tile_height ? canvas->height - y : tile_height, top = canvas->top + y;
         if (policy == POLICY_RESTART || (policy == POLICY_CARRY && !started)) {
-            started = face_start(face, &state, top);
+            started = face_start(face, &state, top, kind);
         } else if (policy == POLICY_SKIP) {
-            started = face_start(face, &state, INT16_MIN);
+            started = face_start(face, &state, INT16_MIN, kind);
             if (started) { face_skip(face, &state, top); }
         }
         if (!started) { continue; }
         for (int32_t x = 0; x < canvas->width; x += tile_width) {
             const int32_t width = canvas->width - x < tile_width ? canvas->width - x : tile_width;
             face_state_t copy = state;
-            face_fill_tile(face, x + width < canvas->width ? &copy : &state, canvas, canvas->left + x, top, width, height);
+            face_fill_tile(face, x + width < canvas->width ? &copy : &state, canvas, canvas->left + x, top, width, height, kind);
         }
     }
+}
+
+static void face_draw(const face_t *face, canvas_t *canvas, int32_t tile_width, int32_t tile_height, policy_t policy) {
+    face_draw_kind(face, canvas, tile_width, tile_height, policy, SPAN_IDS);
 }
 
 static face_t face_of_points(const int32_t (*points)[2], uint32_t count) {
@@ -184,7 +193,7 @@ static void check_picture(const char *what, const int32_t (*points)[2], uint32_t
                 for (int policy = 0; policy < POLICY_COUNT; policy++) {
                     canvas_t canvas = {.width = width, .height = height};
                     ascii_picture_t picture;
-                    face_draw(&face, &canvas, tile, tile, (policy_t)policy);
+                    face_draw_kind(&face, &canvas, tile, tile, (policy_t)policy, (span_kind_t)((uint32_t)tile / 2 % 3));
                     ascii_clear(&picture, width, height);
                     for (int32_t at = 0; at < width * height; at++) {
                         if (canvas.ids[at]) { ascii_hit(&picture, at % width, at / width); }
@@ -695,8 +704,9 @@ static void check_frame_coverage(uint64_t seed, uint32_t least, uint32_t most, i
         whole.width = whole.height = canvas.width = canvas.height = size;
         face_draw(&face, &whole, size, size, POLICY_CARRY);
         const int32_t tile_width = random_between(&random, 1, size), tile_height = random_between(&random, 1, size);
-        face_draw(&face, &canvas, tile_width, tile_height, (policy_t)random_between(&random, 0, POLICY_COUNT - 1));
-        /* Neither coverage nor depth depends on tiles, nor on how a row was reached. */
+        face_draw_kind(&face, &canvas, tile_width, tile_height, (policy_t)random_between(&random, 0, POLICY_COUNT - 1),
+                       (span_kind_t)(round % 3));
+        /* Neither coverage nor depth depends on tiles, on how a row was reached, nor on what is drawn. */
         assert_memory_equal(canvas.ids, whole.ids, sizeof canvas.ids[0] * (size_t)(size * size));
         assert_memory_equal(canvas.depth, whole.depth, sizeof canvas.depth[0] * (size_t)(size * size));
         for (size_t i = 0; i < expected.count; i++) {
@@ -872,7 +882,7 @@ static void measure_triangle(const vertex_t v[3], int32_t left, int32_t top, int
     memset(depth, 0, sizeof depth);
     memset(colour, 0xff, sizeof colour);
     triangle_t state;
-    triangle_start(&state, &t[0], &t[1], &t[2], triangle_area(&t[0], &t[1], &t[2]), top, true);
+    triangle_start(&state, &t[0], &t[1], &t[2], top, true);
     const raster_tile_t tile = {depth, colour, left, top, left + width, top + height, width};
     if (state.row >= tile.bottom) { return; }
     triangle_fill(&state, &tile, SPAN_GOURAUD, false, guarded_ramp());
@@ -998,12 +1008,12 @@ static void light_does_not_depend_on_the_way_to_a_row(void **state) {
         for (int i = 0; i < 3; i++) { face.vertices[i].depth_light = random_depth_light(&random, 512, 65529 * 256); }
         if (!face_to_triangle(&face)) { continue; }
         const vertex_t *v0 = corner(&face, 0), *v1 = corner(&face, 1), *v2 = corner(&face, 2);
-        const int32_t area = triangle_area(v0, v1, v2), end = edge_row(v1->y > v2->y ? v1->y : v2->y);
+        const int32_t end = edge_row(v1->y > v2->y ? v1->y : v2->y);
         const int32_t begin = edge_row(v0->y), split = random_between(&random, 0, SIZE - 1), column = random_between(&random, 1, SIZE - 1);
         if (end <= 0 || begin >= end || begin >= SIZE) { continue; }
         triangle_t whole, part;
         const raster_tile_t tile = {depth[0], colour[0], 0, 0, SIZE, SIZE, SIZE};
-        triangle_start(&whole, v0, v1, v2, area, 0, true);
+        triangle_start(&whole, v0, v1, v2, 0, true);
         if (whole.row < SIZE) { triangle_fill(&whole, &tile, SPAN_GOURAUD, false, guarded_ramp()); }
         for (int lower = 0; lower < 2; lower++) {
             const int32_t top = lower ? split : 0, bottom = lower ? SIZE : split;
@@ -1011,9 +1021,9 @@ static void light_does_not_depend_on_the_way_to_a_row(void **state) {
             for (int right = 0; right < 2; right++) {
                 const int32_t x0 = right ? column : 0, x1 = right ? SIZE : column;
                 if (lower && random_one_in(&random, 2)) {
-                    triangle_start(&part, v0, v1, v2, area, top, true);
+                    triangle_start(&part, v0, v1, v2, top, true);
                 } else {
-                    triangle_start(&part, v0, v1, v2, area, INT16_MIN, true);
+                    triangle_start(&part, v0, v1, v2, INT16_MIN, true);
                     triangle_skip(&part, top);
                 }
                 const raster_tile_t quarter = {depth[1] + top * SIZE + x0, colour[1] + top * SIZE + x0, x0, top, x1, bottom, SIZE};
@@ -1047,7 +1057,7 @@ static void the_nearer_face_wins_and_ties_go_as_asked(void **state) {
                     for (int half = 0; half < 2; half++) {
                         triangle_t t;
                         const vertex_t *v1 = half ? &v[2] : &v[1], *v2 = half ? &v[3] : &v[2];
-                        triangle_start(&t, &v[0], v1, v2, triangle_area(&v[0], v1, v2), 0, false);
+                        triangle_start(&t, &v[0], v1, v2, 0, false);
                         t.value = f + 1;
                         triangle_fill(&t, &tile, SPAN_IDS, last, NULL);
                     }

@@ -161,7 +161,7 @@ static void wide_numbers_are_normalised_and_keep_their_value(void **state) {
             continue;
         }
         /* exact but for one bit of the largest ones */
-        const int128_t value = a.exponent >= 5 ? (int128_t)a.mantissa << (a.exponent - 5) : floor_shift(a.mantissa, (unsigned)(5 - a.exponent));
+        const int128_t value = a.exponent >= 5 ? (int128_t)a.mantissa * ((int128_t)1 << (a.exponent - 5)) : floor_shift(a.mantissa, (unsigned)(5 - a.exponent));
         const int128_t off = value - m;
         assert_true(off >= -1 && off <= 1);
         if (m > -(INT64_C(1) << 62) && m < INT64_C(1) << 62) { assert_true(off == 0); }
@@ -180,7 +180,7 @@ static void wide_products_are_as_near_as_they_say(void **state) {
         assert_normal(p);
         const int shift = p.exponent - a.exponent - b.exponent;
         assert_true(shift >= 60 && shift <= 62);
-        const int128_t exact = (int128_t)a.mantissa * b.mantissa, off = ((int128_t)p.mantissa << shift) - exact;
+        const int128_t exact = (int128_t)a.mantissa * b.mantissa, off = (int128_t)p.mantissa * ((int128_t)1 << shift) - exact;
         const long double error = fabsl((long double)off / (long double)exact);
         worst = error > worst ? error : worst;
     }
@@ -199,8 +199,8 @@ static void wide_sums_are_as_near_as_they_say(void **state) {
         const wide_t s = wide_add(a, b);
         assert_normal(s);
         const int32_t low = a.exponent < b.exponent ? a.exponent : b.exponent;
-        const int128_t exact = ((int128_t)a.mantissa << (a.exponent - low)) + ((int128_t)b.mantissa << (b.exponent - low));
-        const int128_t got = s.exponent >= low ? (int128_t)s.mantissa << (s.exponent - low) : floor_shift(s.mantissa, (unsigned)(low - s.exponent));
+        const int128_t exact = (int128_t)a.mantissa * ((int128_t)1 << (a.exponent - low)) + (int128_t)b.mantissa * ((int128_t)1 << (b.exponent - low));
+        const int128_t got = s.exponent >= low ? (int128_t)s.mantissa * ((int128_t)1 << (s.exponent - low)) : floor_shift(s.mantissa, (unsigned)(low - s.exponent));
         const long double larger = fmaxl(ldexpl(fabsl((long double)a.mantissa), a.exponent - low), ldexpl(fabsl((long double)b.mantissa), b.exponent - low));
         const long double error = fabsl((long double)(got - exact)) / larger;
         worst = error > worst ? error : worst;

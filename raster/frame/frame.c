@@ -47,10 +47,10 @@ TUILE_NOINLINE void frame_ramp_make(tuile_t *t, uint32_t material, uint32_t slot
 
 /* ---- init ---- */
 
-/* Tile height that leaves about two thirds of the block to the arena. */
+/* Tile height that leaves five sixths of the block to the arena: a second pass costs more than lower tiles do. */
 static uint16_t default_tile_height(const tuile_config_t *c, size_t size_bytes) {
     const size_t row_bytes = (size_t)c->tile_width * (2u + c->buffers * TUILE_FORMAT_BYTES(c->format));
-    size_t rows = size_bytes / 3u / row_bytes;
+    size_t rows = size_bytes / 6u / row_bytes;
     rows = rows > 24 ? 24 : rows < 1 ? 1 : rows;
     return (uint16_t)(rows > c->height ? c->height : rows);
 }
