@@ -287,7 +287,7 @@ static int write_ids(render_t *r, unsigned frame) {
     char name[4096];
     output_t out;
     void *block = NULL;
-    tuile_t *renderer;
+    tuile_t *renderer = NULL;
     tuile_tile_t tile;
     tuile_config_t config = r->config;
     size_t memory_bytes = 0;
@@ -296,7 +296,7 @@ static int write_ids(render_t *r, unsigned frame) {
     if (!strchr(r->ids, '%') && frame > 0) { return 0; }
     frame_name(name, sizeof name, r->ids, frame);
     config.format = TUILE_FACE_IDS;
-    uint32_t *ids = malloc(pixels * sizeof *ids);
+    uint32_t *ids = calloc(pixels, sizeof *ids);
     if (!ids) { return command_fail("out of memory"); }
     int code = open_renderer(&renderer, &block, &config, &r->model, &memory_bytes);
     int result = code ? 0 : tuile_begin(renderer, &r->view.scene);

@@ -287,7 +287,7 @@ int sim_picture_halve(const sim_picture_t *picture, sim_picture_t *out, sim_erro
                 }
             }
             for (unsigned i = 0; i < 3; i++) {
-                sim_picture_at(out, x, y)[i] = (uint8_t)((sum[i] + count / 2) / count);
+                sim_picture_at(out, x, y)[i] = (uint8_t)((sum[i] + count / 2) / (count ? count : 1));
             }
         }
     }

@@ -379,7 +379,7 @@ static int check_poly(parser_t *parser, const scene_poly_t *poly) {
 
 static int read_poly(parser_t *parser) {
     scene_text_t *scene = parser->scene;
-    int64_t id;
+    int64_t id = 0;
     if (read_whole(parser, "polygon ID", 1, UINT32_MAX, &id) < 0) { return -1; }
     scene_poly_t poly = {.id = (uint32_t)id, .first = scene->vertex_count, .line = parser->line};
     for (word_t word = next_word(parser); word.length; word = next_word(parser)) {

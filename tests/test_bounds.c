@@ -60,13 +60,13 @@ static void wide_edges_across_the_coordinates(void **state) {
 }
 
 static void short_edges_at_the_ends_of_the_coordinates(void **state) {
-    static const int32_t ends[] = {INT16_MIN + 1, INT16_MIN + 17, -8, 0, 8, INT16_MAX - 16, INT16_MAX - 17};
+    static const int32_t ends[] = {INT16_MIN + 8, INT16_MIN + 17, -8, 0, 8, INT16_MAX - 16, INT16_MAX - 17};
     (void)state;
     for (size_t i = 0; i < CHECK_COUNT(ends); i++) {
         for (int32_t dx = 1 - SHORT_SIDE; dx < SHORT_SIDE; dx++) {
             for (int32_t dy = 1; dy < SHORT_SIDE; dy += dy < 40 ? 1 : 29) {
                 const int32_t x0 = ends[i], y0 = -3, first = edge_row(y0), end = edge_row(y0 + dy);
-                if (x0 + dx <= INT16_MIN || x0 + dx >= INT16_MAX - 15 || first >= end) { continue; }
+                if (x0 + dx < INT16_MIN + 8 || x0 + dx > INT16_MAX - 16 || first >= end) { continue; }
                 for (int last = 0; last < 2; last++) {
                     const int32_t row = last ? end - 1 : first;
                     const short_edge_t edge = short_edge_start(x0, y0, x0 + dx, y0 + dy, row);
@@ -76,6 +76,16 @@ static void short_edges_at_the_ends_of_the_coordinates(void **state) {
             }
         }
     }
+}
+
+static void leftmost_short_edge(void) {
+    const short_edge_t edge = short_edge_start(INT16_MIN + 1, 0, INT16_MIN + 1, 32, 0);
+    if (short_edge_pixel(edge.x) != -2048) { abort(); }
+}
+
+static void a_short_edge_at_its_stated_left_end_does_not_overflow(void **state) {
+    (void)state;
+    assert_true(check_survives(leftmost_short_edge));
 }
 
 /* Triangles whose corners are ends of the guard span, of small sides too, with depth and light at both ends. */
@@ -245,6 +255,7 @@ int main(void) {
         cmocka_unit_test(edges_across_the_guard_span),
         cmocka_unit_test(wide_edges_across_the_coordinates),
         cmocka_unit_test(short_edges_at_the_ends_of_the_coordinates),
+        cmocka_unit_test(a_short_edge_at_its_stated_left_end_does_not_overflow),
         cmocka_unit_test(triangles_at_the_ends_of_everything),
         cmocka_unit_test(polygons_at_the_ends_of_everything),
         cmocka_unit_test(scenes_at_the_ends_of_their_ranges),

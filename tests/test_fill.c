@@ -647,7 +647,7 @@ static void coverage_of_a_million_polygons_is_exact(void **state) {
         assert_int_equal(coverage_reference(&expected, (const int32_t(*)[2])points, count, size, size), 0);
         const polygon_ring_t ring = {NULL, NULL, (const q28_4_t(*)[2])points, count};
         comparison_t comparison = {&expected, 0, 0};
-        const unsigned capacity = random_one_in(&random, 8) ? (unsigned)random_between(&random, 0, 16) : 16;
+        const unsigned capacity = random_one_in(&random, 16) ? (unsigned)random_between(&random, 0, 16) : 16;
         polygon_coverage(&ring, size, size, chains, capacity, compare_span, &comparison);
         assert_int_equal(comparison.wrong, 0);
         assert_int_equal(comparison.at, expected.count);
@@ -733,7 +733,7 @@ static void polygons_of_the_frame_path_cover_exactly(void **state) {
 
 static void polygons_of_more_chains_than_fit_cover_exactly(void **state) {
     (void)state;
-    check_frame_coverage(5, 16, CORNERS_MAX, CHECK_ROUNDS(4000));
+    check_frame_coverage(5, 16, CORNERS_MAX, CHECK_ROUNDS(1600));
 }
 
 /* ---- meshes ------------------------------------------------------------------------------------------------------------------- */

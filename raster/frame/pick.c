@@ -33,7 +33,7 @@ static void pixel_ray(ray_t *ray, const tuile_camera_t *camera, const tuile_inst
     const bool perspective = camera->projection == TUILE_PERSPECTIVE;
     const wide_t view_along[3] = {perspective ? across : nothing, perspective ? wide_negate(down) : nothing, ahead};
     const wide_t view_from[3] = {perspective ? nothing : across, perspective ? nothing : wide_negate(down), nothing};
-    wide_t world[3], local[3];
+    wide_t world[3] = {{0, 0}}, local[3] = {{0, 0}};
 
     rotate_back(world, camera->rotation, view_along);
     rotate_back(ray->along, pose->rotation, world);
@@ -91,7 +91,7 @@ static void face_plane(const tuile_model_t *model, uint32_t face, wide_t normal[
 static void intersect(const tuile_scene_t *scene, tuile_hit_t *hit, uint16_t x, uint16_t y) {
     const tuile_instance_t *instance = &scene->instances[hit->instance];
     ray_t ray;
-    wide_t normal[3], point[3], between[3];
+    wide_t normal[3], point[3] = {{0, 0}}, between[3];
     pixel_ray(&ray, &scene->camera, instance, x, y);
     face_plane(instance->model, hit->face, normal, point);
     for (int i = 0; i < 3; i++) { between[i] = wide_add(point[i], wide_negate(ray.from[i])); }

@@ -6,7 +6,7 @@
 int tuile_camera_look_at(tuile_camera_t *camera, const q16_16_t eye[3], const q16_16_t at[3], const q16_16_t up[3]) {
     const int64_t towards[3] = {(int64_t)at[0] - eye[0], (int64_t)at[1] - eye[1], (int64_t)at[2] - eye[2]};
     const int64_t upward[3] = {up[0], up[1], up[2]};
-    q2_30_t forward[3], up_unit[3], right[3], above[3];
+    q2_30_t forward[3] = {0}, up_unit[3] = {0}, right[3] = {0}, above[3] = {0};
     int64_t cross[3];
 
     if (!vector_normalise(forward, towards) || !vector_normalise(up_unit, upward)) { return TUILE_ERROR_CAMERA; }

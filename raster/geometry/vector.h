@@ -11,7 +11,7 @@ static inline bool vector_normalise(q2_30_t unit[3], const int64_t v[3]) {
     for (int i = 0; i < 3; i++) { all |= (uint64_t)(v[i] < 0 ? -v[i] : v[i]); }
     if (all == 0) { return false; }
     const int up = (int)fixed_clz64(all) - 33; /* the largest component becomes 31 bits wide: squares add up to less than 2^64 */
-    int64_t scaled[3];
+    int64_t scaled[3] = {0};
     uint64_t sum = 0;
     for (int i = 0; i < 3; i++) {
         scaled[i] = up >= 0 ? fixed_shift_left64(v[i], (unsigned)up) : v[i] >> -up;

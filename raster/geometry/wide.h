@@ -46,9 +46,10 @@ static inline wide_t wide_add(wide_t a, wide_t b) {
     return shift > 62 ? a : wide_make(a.mantissa + (b.mantissa >> shift), a.exponent);
 }
 
-/* 1 / a for a != 0; relative error below 2^-30. */
+/* 1 / a, 0 for 0; relative error below 2^-30. */
 static inline wide_t wide_reciprocal(wide_t a) {
     const int64_t divisor = a.mantissa >> 31; /* 2^30 <= |divisor| <= 2^31 */
+    if (divisor == 0) { return a; }
     return wide_make(((int64_t)1 << 62) / divisor, -62 - 31 - a.exponent);
 }
 

@@ -176,6 +176,7 @@ static void angle(const int64_t normal[3], const double axis[3], double *cosine,
 /* The axis whose furthest normal is nearest, by the same walk as the sphere's centre. */
 static void widest_axis(const normals_t *normals, double axis[3]) {
     axis[0] = axis[1] = axis[2] = 0;
+    if (normals->count == 0) { return; }
     for (size_t i = 0; i < normals->count; i++) {
         const double n[3] = {(double)normals->exact[i][0], (double)normals->exact[i][1], (double)normals->exact[i][2]};
         for (int k = 0; k < 3; k++) {

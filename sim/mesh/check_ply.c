@@ -157,7 +157,7 @@ static int check_list(ply_t *ply, const ply_element_t *element, const ply_proper
     if (!read_number(ply, property->count_type, &count) || !(count >= 0)) {
         return cut_short(ply, element, item, error);
     }
-    for (double i = 0; i < count; i++) {
+    for (uint64_t left = count < 1e15 ? (uint64_t)count : UINT64_MAX; left; left--) { /* the end of the file comes first */
         if (!read_number(ply, property->type, &index)) {
             return cut_short(ply, element, item, error);
         }

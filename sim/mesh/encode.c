@@ -230,7 +230,7 @@ int solid_encode(const solid_t *solid, const clusters_t *clusters, const mesh_t 
         finish(&e, &out, mesh, source32);
     }
     sheet_t *sections[] = {&e.positions, &e.normals, &e.table, &e.faces, &e.face_normals, &e.materials, &e.source};
-    for (size_t s = 0; s < sizeof sections / sizeof *sections; s++) {
+    for (size_t s = 0; s < sizeof sections / sizeof sections[0]; s++) {
         free(sections[s]->bytes);
     }
     free(e.local);

@@ -49,6 +49,7 @@ uint64_t solid_z_order(const solid_t *solid, const uint32_t *faces, size_t count
         }
     }
     uint64_t key = 0;
+    if (corners == 0) { return 0; }
     for (int bit = 15; bit >= 0; bit--) {
         for (int k = 0; k < 3; k++) {
             key = key << 1 | (uint64_t)(sum[k] / corners >> bit & 1);

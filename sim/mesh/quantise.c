@@ -358,6 +358,9 @@ static bool join(work_t *w) {
     if (!solid->corners) {
         return false;
     }
+    if (!w->vertices) { /* no face was left */
+        return true;
+    }
     solid->vertex_count = meshopt_generateVertexRemap(solid->corners, NULL, solid->corner_count, w->vertices, solid->corner_count,
                                                       sizeof *w->vertices);
     for (size_t c = 0; c < solid->corner_count; c++) { /* in place: a vertex never moves up */

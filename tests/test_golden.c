@@ -1,0 +1,265 @@
+/* Golden pictures: small models drawn as they were when someone last looked at them, and hashes of frames of the demo.
+ *
+ * tests/golden holds a picture for each model and way of shading, hashes.txt the hashes of what the renderer put out for them, and
+ * demo.txt those of the demo's frames 0, 9, 18 and 27. Where a picture differs, build/golden gets what was drawn and where it differs.
+ * UPDATE_GOLDEN=1 in the environment writes all of them anew; then look at them. */
+#include "support/check.h"
+#include "support/command.h"
+#include "support/models.h"
+
+#include "../sim/picture.h"
+#include "../sim/view.h"
+
+#include <sys/stat.h>
+
+#define WIDTH 120
+#define HEIGHT 90
+
+static void staircase(mesh_t *mesh) { model_staircase(mesh, 5); }
+static void torus(mesh_t *mesh) { model_torus(mesh, 32, 14, false); }
+static void sphere(mesh_t *mesh) { model_sphere(mesh, 9, 16); }
+
+static const struct {
+    const char *name;
+    void (*make)(mesh_t *);
+    double eye[3], at[3];
+    double fov;
+    bool inside; /* the camera stands at eye instead of where it sees the whole model */
+} models[] = {
+    {"cube", model_cube, {0, 0, 0}, {0, 0, 0}, 45, false},
+    {"torus", torus, {0, 0, 0}, {0, 0, 0}, 45, false},
+    {"sphere", sphere, {0, 0, 0}, {0, 0, 0}, 45, false},
+    {"staircase", staircase, {-3, 6, 9}, {2.5, 1, 1.5}, 40, true},
+    {"room", model_room, {-1, 0.5, 3.8}, {0.2, -0.3, -4}, 75, true},
+    {"octahedron", model_octahedron, {0, 0, 0}, {0, 0, 0}, 45, false},
+};
+static const char *const shades[] = {"flat", "gouraud"};
+static bool updating;
+
+static const char *build_folder(void) {
+    const char *build = getenv("BUILD");
+    return build && *build ? build : "build";
+}
+
+static uint64_t fnv(const uint8_t *bytes, size_t size_bytes) {
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < size_bytes; i++) { hash = (hash ^ bytes[i]) * 0x100000001b3u; }
+    return hash;
+}
+
+/* ---- hashes: lines "NAME HASH" ------------------------------------------------------------------------------- */
+
+typedef struct hashes {
+    const char *path;
+    char *old;
+    char written[4096];
+} hashes_t;
+
+static void hashes_open(hashes_t *hashes, const char *path) {
+    memset(hashes, 0, sizeof *hashes);
+    hashes->path = path;
+    hashes->old = command_read(path, NULL);
+    if (!hashes->old && !updating) { fail_msg("%s is missing; `make golden` writes it", path); }
+}
+
+static bool hashes_check(hashes_t *hashes, const char *name, const char *hash) {
+    char line[128];
+    const size_t used = strlen(hashes->written);
+    (void)snprintf(line, sizeof line, "%s %s\n", name, hash);
+    (void)snprintf(hashes->written + used, sizeof hashes->written - used, "%s", line);
+    return updating || strstr(hashes->old, line) != NULL;
+}
+
+/* In the end the file must hold these lines and no others. */
+static void hashes_close(hashes_t *hashes) {
+    if (updating) {
+        command_write(hashes->path, hashes->written, strlen(hashes->written));
+    } else if (strcmp(hashes->old, hashes->written) != 0) {
+        fail_msg("%s does not say what was drawn just now; if that is meant, `make golden` and look at the pictures\n%s", hashes->path, hashes->written);
+    }
+    free(hashes->old);
+}
+
+/* ---- pictures ----------------------------------------------------------------------------------------------- */
+
+static void draw(unsigned m, unsigned shade, uint16_t *picture) {
+    static uint64_t block[8192];
+    model_compiled_t compiled;
+    mesh_t mesh;
+    view_t view;
+    sim_error_t error = {""};
+    view_options_t options = VIEW_OPTIONS_DEFAULT;
+    tuile_t *renderer;
+    tuile_tile_t tile;
+    models[m].make(&mesh);
+    model_compile(&compiled, &mesh);
+    options.fov = models[m].fov;
+    options.has_fov = true;
+    memcpy(options.background, (const uint8_t[3]){0x18, 0x20, 0x30}, 3);
+    if (models[m].inside) {
+        options.has_eye = options.has_at = options.has_near = true;
+        memcpy(options.eye, models[m].eye, sizeof options.eye);
+        memcpy(options.at, models[m].at, sizeof options.at);
+        options.near = 0.1;
+    }
+    if (view_make(&view, &options, &compiled.model, WIDTH, HEIGHT, 1, &error) != 0) { fail_msg("%s", error.text); }
+    const tuile_config_t config = {.width = WIDTH, .height = HEIGHT, .tile_width = 32, .tile_height = 16, .format = TUILE_RGB565_LE, .shade = (uint8_t)shade};
+    assert_int_equal(tuile_init(&renderer, &config, block, sizeof block, NULL), 0);
+    assert_int_equal(tuile_begin(renderer, &view.scene), 0);
+    while (tuile_next(renderer, &tile) == 1) {
+        for (unsigned y = 0; y < tile.height; y++) {
+            memcpy(picture + (tile.y + y) * WIDTH + tile.x, tile.bytes + 2u * y * tile.width, 2u * tile.width);
+        }
+    }
+    assert_int_equal(tuile_end(renderer, NULL), 0);
+    model_free(&compiled);
+}
+
+/* 31 and 63 become 255, by rounding. */
+static void widen(const uint16_t *from, sim_picture_t *to) {
+    assert_int_equal(sim_picture_create(to, WIDTH, HEIGHT, NULL), 0);
+    for (unsigned i = 0; i < WIDTH * HEIGHT; i++) {
+        to->rgb[3 * i] = (uint8_t)(((from[i] >> 11) * 255 + 15) / 31);
+        to->rgb[3 * i + 1] = (uint8_t)(((from[i] >> 5 & 63) * 255 + 31) / 63);
+        to->rgb[3 * i + 2] = (uint8_t)(((from[i] & 31) * 255 + 15) / 31);
+    }
+}
+
+/* Tells where the picture differs and leaves it in build/golden. */
+static void show_difference(const sim_picture_t *drawn, const sim_picture_t *golden, const char *name) {
+    char folder[512], path[640];
+    sim_picture_t difference = {0};
+    sim_error_t error = {""};
+    size_t count = 0;
+    (void)snprintf(folder, sizeof folder, "%s/golden", build_folder());
+    (void)mkdir(folder, 0777);
+    (void)snprintf(path, sizeof path, "%s/%s.png", folder, name);
+    if (sim_picture_write(drawn, path, &error) != 0) { print_message("%s\n", error.text); }
+    (void)snprintf(path, sizeof path, "%s/%s-difference.png", folder, name);
+    if (sim_picture_difference(drawn, golden, &difference, &count, &error) != 0 || sim_picture_write(&difference, path, &error) != 0) {
+        print_message("%s\n", error.text);
+    }
+    sim_picture_free(&difference);
+    print_message("%s: %zu pixels differ: %s\n", name, count, path);
+}
+
+static void small_models_look_as_they_did(void **state) {
+    hashes_t hashes;
+    unsigned wrong = 0;
+    (void)state;
+    hashes_open(&hashes, "tests/golden/hashes.txt");
+    for (unsigned m = 0; m < CHECK_COUNT(models); m++) {
+        for (unsigned shade = 0; shade < 2; shade++) {
+            static uint16_t picture[WIDTH * HEIGHT];
+            char name[64], path[128], hash[24];
+            sim_picture_t drawn, golden = {0};
+            sim_error_t error = {""};
+            (void)snprintf(name, sizeof name, "%s-%s", models[m].name, shades[shade]);
+            (void)snprintf(path, sizeof path, "tests/golden/%s.png", name);
+            draw(m, shade, picture);
+            widen(picture, &drawn);
+            (void)snprintf(hash, sizeof hash, "%016llx", (unsigned long long)fnv((const uint8_t *)picture, sizeof picture));
+            bool same = hashes_check(&hashes, name, hash);
+            if (updating) {
+                if (sim_picture_write(&drawn, path, &error) != 0) { fail_msg("%s", error.text); }
+            } else if (sim_picture_read(&golden, path, &error) != 0) {
+                print_message("%s\n", error.text);
+                same = false;
+            } else if (golden.width != WIDTH || golden.height != HEIGHT || memcmp(golden.rgb, drawn.rgb, (size_t)3 * WIDTH * HEIGHT) != 0) {
+                show_difference(&drawn, &golden, name);
+                same = false;
+            }
+            wrong += !same;
+            sim_picture_free(&golden);
+            sim_picture_free(&drawn);
+        }
+    }
+    hashes_close(&hashes);
+    if (wrong) { fail_msg("%u pictures differ from those in tests/golden", wrong); }
+}
+
+/* ---- the demo ----------------------------------------------------------------------------------------------- */
+
+static void append(char *to, size_t size, const char *word) {
+    const size_t used = strlen(to);
+    (void)snprintf(to + used, size - used, "%s%s", used ? " " : "", word);
+}
+
+/* A line of the Makefile's demo with every 9th frame and hashes instead of its pictures. */
+static void demo_command(char *to, size_t size, char *line) {
+    static const struct {
+        const char *name, *variable;
+    } variables[] = {{"$(TUILE)", "TUILE"}, {"$(SPIDER)", "SPIDER"}, {"$(BUNNY_6000)", "BUNNY_6000"}};
+    char *rest = line;
+    to[0] = '\0';
+    for (char *word; (word = strtok_r(rest, " \t", &rest)) != NULL;) {
+        const char *value = word;
+        if (strcmp(word, "--out") == 0 || strcmp(word, "--sheet") == 0) {
+            (void)strtok_r(rest, " \t", &rest);
+            continue;
+        }
+        for (unsigned i = 0; i < CHECK_COUNT(variables); i++) {
+            if (strcmp(word, variables[i].name) == 0) {
+                value = getenv(variables[i].variable);
+                if (!value) { fail_msg("%s is not set", variables[i].variable); }
+            }
+        }
+        if (strcmp(word, "--frames") == 0) {
+            assert_string_equal(strtok_r(rest, " \t", &rest), "36");
+            value = "--frames 4 --spin 90";
+        }
+        append(to, size, value);
+    }
+    append(to, size, "--hash");
+}
+
+static void frames_of_the_demo_have_the_hashes_they_had(void **state) {
+    static const char *const names[] = {"spider", "bunny"};
+    char *makefile = command_read("Makefile", NULL), *rest = makefile;
+    hashes_t hashes;
+    unsigned demos = 0, wrong = 0;
+    bool in_demo = false;
+    (void)state;
+    assert_non_null(makefile);
+    hashes_open(&hashes, "tests/golden/demo.txt");
+    for (char *line; (line = strsep(&rest, "\n")) != NULL;) {
+        if (line[0] != '\t') { in_demo = strncmp(line, "demo:", 5) == 0; }
+        if (!in_demo || strncmp(line, "\t$(TUILE) render ", 17) != 0) { continue; }
+        char command[2048];
+        command_result_t result;
+        unsigned frames = 0;
+        assert_true(demos < CHECK_COUNT(names));
+        demo_command(command, sizeof command, line + 1);
+        command_shell(&result, command);
+        if (result.code != 0) { fail_msg("%s\n%s", command, result.err); }
+        char *out = result.out;
+        for (char *text; (text = strsep(&out, "\n")) != NULL;) {
+            unsigned frame;
+            char hash[24], name[64];
+            if (sscanf(text, "frame %u %23s", &frame, hash) != 2) { continue; }
+            assert_int_equal(frame, frames++);
+            (void)snprintf(name, sizeof name, "%s-%02u", names[demos], 9 * frame);
+            if (!hashes_check(&hashes, name, hash)) {
+                print_message("frame %u of %s differs: %s\n", 9 * frame, names[demos], command);
+                wrong++;
+            }
+        }
+        assert_int_equal(frames, 4);
+        command_free(&result);
+        demos++;
+    }
+    assert_int_equal(demos, CHECK_COUNT(names));
+    hashes_close(&hashes);
+    free(makefile);
+    if (wrong) { fail_msg("%u frames of the demo differ from tests/golden/demo.txt", wrong); }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(small_models_look_as_they_did),
+        cmocka_unit_test(frames_of_the_demo_have_the_hashes_they_had),
+    };
+    const char *update = getenv("UPDATE_GOLDEN");
+    updating = update && strcmp(update, "1") == 0;
+    return cmocka_run_group_tests_name("golden", tests, NULL, NULL);
+}
