@@ -17,14 +17,12 @@ typedef struct view {
     tuile_scene_t scene;
     transform_t transform;
     int32_t width, height;
-    bool slack; /* judge with the planes where they are, not where they were asked for */
 } view_t;
 
 static void view_clear(view_t *v, int32_t width, int32_t height) {
     memset(v, 0, sizeof *v);
     v->width = width;
     v->height = height;
-    v->slack = true;
     v->model.step = TUILE_SCALE_ONE;
     v->model.radius = 57000;
     v->instance.model = &v->model;
@@ -56,7 +54,9 @@ enum { GUARD_LEFT = -992 * 16 + 8, GUARD_RIGHT = 1056 * 16 - 8, GUARD_TOP = -100
 static int clip(const view_t *v, const int16_t (*q)[3], unsigned count, vertex_t *vertices, vertex_t *out, unsigned capacity) {
     uint8_t corners[POINTS_MAX];
     (void)vertex_stage(&v->transform, q[0], NULL, count, vertices);
-    for (unsigned i = 0; i < count; i++) { corners[i] = (uint8_t)i; }
+    for (unsigned i = 0; i < count; i++) {
+        corners[i] = (uint8_t)i;
+    }
     const clip_face_t face = {q[0], vertices, corners, count};
     return clip_polygon(&v->transform, &face, out, capacity);
 }
@@ -74,11 +74,17 @@ static void check_clip(const int16_t (*q)[3], unsigned count, const int32_t (*ex
         for (; same < got; same++) {
             const vertex_t *p = &out[(same + turn) % got];
             /* halving ends within a unit of the fine grid, so what is cut may be snapped to either side of a tie */
-            if (abs(p->x - expected[same][0]) > 1 || abs(p->y - expected[same][1]) > 1) { break; }
+            if (abs(p->x - expected[same][0]) > 1 || abs(p->y - expected[same][1]) > 1) {
+                break;
+            }
         }
-        if (same == got) { return; }
+        if (same == got) {
+            return;
+        }
     }
-    for (int i = 0; i < got; i++) { print_message("(%d, %d) expected (%d, %d)\n", out[i].x, out[i].y, (int)expected[i][0], (int)expected[i][1]); }
+    for (int i = 0; i < got; i++) {
+        print_message("(%d, %d) expected (%d, %d)\n", out[i].x, out[i].y, (int)expected[i][0], (int)expected[i][1]);
+    }
     assert_true(got == 0);
 }
 
@@ -109,13 +115,15 @@ static void a_triangle_cut_by_two_planes_is_a_pentagon(void **state) {
     /* beyond the left side with one corner, below with another */
     static const int16_t q[3][3] = {{-1992, 0, 0}, {8, 0, 0}, {8, -2048, 0}};
     /* hypotenuse: y = (x + 1992) * 2048 / 2000, at x = -991.5: 1024.51; below at y = 1047.5: x = -1992 + 1022.95 = -969.05 */
-    static const int32_t expected[][2] = {{GUARD_LEFT, 16392}, {GUARD_LEFT, 0}, {128, 0}, {128, GUARD_BOTTOM}, {-15505, GUARD_BOTTOM}};
+    static const int32_t expected[][2] = {
+        {GUARD_LEFT, 16392}, {GUARD_LEFT, 0}, {128, 0}, {128, GUARD_BOTTOM}, {-15505, GUARD_BOTTOM}};
     (void)state;
     check_clip(q, 3, expected, 5);
 }
 
 static void what_is_cut_off_entirely_is_nothing(void **state) {
-    static const int16_t q[3][3] = {{-3000, 0, 0}, {-1000, 100, 0}, {-1500, -100, 0}}, deep[3][3] = {{0, 0, 501}, {9, 9, 600}, {5, 9, 800}};
+    static const int16_t q[3][3] = {{-3000, 0, 0}, {-1000, 100, 0}, {-1500, -100, 0}},
+                         deep[3][3] = {{0, 0, 501}, {9, 9, 600}, {5, 9, 800}};
     static const int16_t round_the_corner[3][3] = {{-3000, -900, 0}, {-900, -3000, 0}, {-3000, -3000, 0}};
     (void)state;
     check_clip(q, 3, NULL, 0);
@@ -125,7 +133,8 @@ static void what_is_cut_off_entirely_is_nothing(void **state) {
 
 static void a_polygon_round_the_guard_band_becomes_its_corners(void **state) {
     static const int16_t q[4][3] = {{-9000, 9000, 0}, {-9000, -9000, 0}, {9000, -9000, 0}, {9000, 9000, 0}};
-    static const int32_t expected[][2] = {{GUARD_LEFT, GUARD_TOP}, {GUARD_LEFT, GUARD_BOTTOM}, {GUARD_RIGHT, GUARD_BOTTOM}, {GUARD_RIGHT, GUARD_TOP}};
+    static const int32_t expected[][2] = {
+        {GUARD_LEFT, GUARD_TOP}, {GUARD_LEFT, GUARD_BOTTOM}, {GUARD_RIGHT, GUARD_BOTTOM}, {GUARD_RIGHT, GUARD_TOP}};
     (void)state;
     check_clip(q, 4, expected, 4);
 }
@@ -157,7 +166,7 @@ static void near_and_far_plane_cut_a_band(void **state) {
 }
 
 static void a_polygon_that_is_not_convex_keeps_its_prongs(void **state) {
-    static const int16_t q[8][3] = {{20, 40, 0},     {-2000, 40, 0}, {-2000, 20, 0}, {10, 20, 0},
+    static const int16_t q[8][3] = {{20, 40, 0},  {-2000, 40, 0},  {-2000, 20, 0},  {10, 20, 0},
                                     {10, -20, 0}, {-2000, -20, 0}, {-2000, -40, 0}, {20, -40, 0}};
     static const int32_t expected[][2] = {{320, -640}, {GUARD_LEFT, -640}, {GUARD_LEFT, -320}, {160, -320},
                                           {160, 320},  {GUARD_LEFT, 320},  {GUARD_LEFT, 640},  {320, 640}};
@@ -176,7 +185,9 @@ static void too_many_vertices_are_told_and_nothing_is_written_behind(void **stat
         vertex_t vertices[POINTS_MAX], out[2 * POINTS_MAX], full[2 * POINTS_MAX], guard;
         const unsigned count = (unsigned)random_between(&random, 3, 24);
         for (unsigned i = 0; i < count; i++) {
-            for (int j = 0; j < 3; j++) { q[i][j] = (int16_t)random_between(&random, j == 2 ? -700 : -1800, j == 2 ? 700 : 1800); }
+            for (int j = 0; j < 3; j++) {
+                q[i][j] = (int16_t)random_between(&random, j == 2 ? -700 : -1800, j == 2 ? 700 : 1800);
+            }
         }
         memset(full, 0x77, sizeof full);
         const int all = clip(&v, (const int16_t(*)[3])q, count, vertices, full, 2 * POINTS_MAX);
@@ -185,7 +196,9 @@ static void too_many_vertices_are_told_and_nothing_is_written_behind(void **stat
         for (unsigned capacity = 0; capacity <= (unsigned)all + 1; capacity++) {
             memset(out, 0x5a, sizeof out);
             const int got = clip(&v, (const int16_t(*)[3])q, count, vertices, out, capacity);
-            for (unsigned i = capacity; i < 2 * POINTS_MAX; i++) { assert_memory_equal(&out[i], &guard, sizeof guard); }
+            for (unsigned i = capacity; i < 2 * POINTS_MAX; i++) {
+                assert_memory_equal(&out[i], &guard, sizeof guard);
+            }
             if (all > 0 && capacity < (unsigned)all) {
                 assert_int_equal(got, -1);
                 overflowed++;
@@ -198,7 +211,8 @@ static void too_many_vertices_are_told_and_nothing_is_written_behind(void **stat
     assert_true(overflowed > 1000);
 }
 
-/* ---- fuzz ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- fuzz -----------------------------------------------------------------------------------------------------------------------
+ */
 
 typedef long double real_t;
 
@@ -213,11 +227,15 @@ static void exact_view(const view_t *v, const int16_t q[3], real_t view[3]) {
     real_t world[3];
     for (int i = 0; i < 3; i++) {
         world[i] = ((real_t)pose->translation[i] - camera->eye[i]) / 65536;
-        for (int j = 0; j < 3; j++) { world[i] += pose->rotation[i][j] * 0x1p-30L * ldexpl(q[j], v->model.step.exponent); }
+        for (int j = 0; j < 3; j++) {
+            world[i] += pose->rotation[i][j] * 0x1p-30L * ldexpl(q[j], v->model.step.exponent);
+        }
     }
     for (int i = 0; i < 3; i++) {
         view[i] = 0;
-        for (int j = 0; j < 3; j++) { view[i] += camera->rotation[i][j] * 0x1p-30L * world[j]; }
+        for (int j = 0; j < 3; j++) {
+            view[i] += camera->rotation[i][j] * 0x1p-30L * world[j];
+        }
     }
 }
 
@@ -228,9 +246,13 @@ static void exact_cut(shape_t *s, const real_t a[4]) {
     for (int i = 0; i < s->count; i++) {
         const real_t *p = s->p[i], *n = s->p[(i + 1) % s->count];
         const real_t dp = a[0] * p[0] + a[1] * p[1] + a[2] * p[2] + a[3], dn = a[0] * n[0] + a[1] * n[1] + a[2] * n[2] + a[3];
-        if (dp >= 0) { memcpy(out.p[out.count++], p, sizeof out.p[0]); }
+        if (dp >= 0) {
+            memcpy(out.p[out.count++], p, sizeof out.p[0]);
+        }
         if ((dp >= 0) != (dn >= 0)) {
-            for (int k = 0; k < 3; k++) { out.p[out.count][k] = (p[k] * dn - n[k] * dp) / (dn - dp); }
+            for (int k = 0; k < 3; k++) {
+                out.p[out.count][k] = (p[k] * dn - n[k] * dp) / (dn - dp);
+            }
             out.count++;
         }
     }
@@ -241,13 +263,12 @@ static void exact_cut(shape_t *s, const real_t a[4]) {
 static void exact_clip(const view_t *v, const int16_t (*q)[3], const unsigned *corners, unsigned count, real_t margin, shape_t *s) {
     const tuile_camera_t *c = &v->scene.camera;
     const real_t fx = c->focal_x / 65536.0L, fy = c->focal_y / 65536.0L, cx = c->centre_x / 65536.0L, cy = c->centre_y / 65536.0L;
-    /* Near and far plane stand apart by what rounding the matrix may move a position: half a unit of the fine w for each of at most
-     * 3 * 32768 steps, and 2. A fine unit of w is 2^-(54 - depth_shift) of (65528 / 65536) near. */
-    const real_t slack = v->slack ? (3 * 32768 / 2 + 2) * ldexpl(c->near / 65536.0L * 65528 / 65536, v->transform.depth_shift - 54) : 0;
     s->count = (int)count;
-    for (unsigned i = 0; i < count; i++) { exact_view(v, q[corners[i]], s->p[i]); }
-    exact_cut(s, (const real_t[4]){0, 0, -1, slack - c->near / 65536.0L});
-    exact_cut(s, (const real_t[4]){0, 0, 1, slack + c->far / 65536.0L});
+    for (unsigned i = 0; i < count; i++) {
+        exact_view(v, q[corners[i]], s->p[i]);
+    }
+    exact_cut(s, (const real_t[4]){0, 0, -1, -c->near / 65536.0L});
+    exact_cut(s, (const real_t[4]){0, 0, 1, c->far / 65536.0L});
     /* left: cx + fx x / w >= -margin, w = -z */
     exact_cut(s, (const real_t[4]){fx, 0, -(cx + margin), 0});
     exact_cut(s, (const real_t[4]){-fx, 0, -(v->width + margin - cx), 0});
@@ -269,7 +290,9 @@ static real_t distance_to_side(const real_t a[2], const real_t b[2], real_t x, r
 
 static real_t distance_to_shape(const shape_t *s, real_t x, real_t y) {
     real_t least = 1e9L;
-    for (int i = 0; i < s->count; i++) { least = fminl(least, distance_to_side(s->p[i], s->p[(i + 1) % s->count], x, y)); }
+    for (int i = 0; i < s->count; i++) {
+        least = fminl(least, distance_to_side(s->p[i], s->p[(i + 1) % s->count], x, y));
+    }
     return least;
 }
 
@@ -277,7 +300,9 @@ static bool shape_contains(const shape_t *s, real_t x, real_t y) {
     bool inside = false;
     for (int i = 0; i < s->count; i++) {
         const real_t *a = s->p[i], *b = s->p[(i + 1) % s->count];
-        if ((a[1] <= y) != (b[1] <= y) && a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) <= x) { inside = !inside; }
+        if ((a[1] <= y) != (b[1] <= y) && a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) <= x) {
+            inside = !inside;
+        }
     }
     return inside;
 }
@@ -298,18 +323,28 @@ static bool random_view(random_source_t *random, view_t *v, int16_t (*q)[3], int
     const bool ground = random_one_in(random, 3);
     view_clear(v, 48, 36);
     for (int i = 0; i < count; i++) {
-        for (int j = 0; j < 3; j++) { q[i][j] = (int16_t)random_between(random, -reach, reach); }
-        if (ground) { q[i][1] = 0; }
+        for (int j = 0; j < 3; j++) {
+            q[i][j] = (int16_t)random_between(random, -reach, reach);
+        }
+        if (ground) {
+            q[i][1] = 0;
+        }
     }
     v->model.step.exponent = reach == 3 ? -2 : 0;
     for (int i = 0; i < count && reach == 3; i++) {
-        for (int j = 0; j < 3; j++) { q[i][j] = (int16_t)(q[i][j] * 4 + (ground && j == 1 ? 0 : random_between(random, -2, 2))); }
+        for (int j = 0; j < 3; j++) {
+            q[i][j] = (int16_t)(q[i][j] * 4 + (ground && j == 1 ? 0 : random_between(random, -2, 2)));
+        }
     }
     tuile_camera_t *camera = &v->scene.camera;
-    const q16_16_t eye[3] = {random_between(random, -65536, 65536), ground ? random_between(random, 0, 3) * 65536 : random_between(random, -65536, 65536),
+    const q16_16_t eye[3] = {random_between(random, -65536, 65536),
+                             ground ? random_between(random, 0, 3) * 65536 : random_between(random, -65536, 65536),
                              random_between(random, -65536, 65536)};
-    const q16_16_t at[3] = {random_between(random, -5 * 65536, 5 * 65536), random_between(random, -5 * 65536, 5 * 65536), random_between(random, -5 * 65536, 5 * 65536)};
-    if (tuile_camera_look_at(camera, eye, at, (const q16_16_t[3]){0, 65536, 0}) != TUILE_OK) { return false; }
+    const q16_16_t at[3] = {random_between(random, -5 * 65536, 5 * 65536), random_between(random, -5 * 65536, 5 * 65536),
+                            random_between(random, -5 * 65536, 5 * 65536)};
+    if (tuile_camera_look_at(camera, eye, at, (const q16_16_t[3]){0, 65536, 0}) != TUILE_OK) {
+        return false;
+    }
     camera->focal_x = random_between(random, 20 * 65536, 100 * 65536);
     camera->focal_y = random_between(random, 20 * 65536, 100 * 65536);
     camera->centre_x = TUILE_Q16(24);
@@ -330,7 +365,9 @@ static void clipped_triangles_keep_their_shape_in_the_window(void **state) {
         vertex_t vertices[3], out[POINTS_MAX];
         shape_t exact, got;
         static const unsigned corners[3] = {0, 1, 2};
-        if (!random_view(&random, &v, q, 3)) { continue; }
+        if (!random_view(&random, &v, q, 3)) {
+            continue;
+        }
         const int count = clip(&v, (const int16_t(*)[3])q, 3, vertices, out, POINTS_MAX);
         assert_true(count >= 0 && count <= 9);
         exact_clip(&v, (const int16_t(*)[3])q, corners, 3, 8, &exact);
@@ -344,7 +381,9 @@ static void clipped_triangles_keep_their_shape_in_the_window(void **state) {
                 const real_t px = x + 0.5L, py = y + 0.5L;
                 const bool inside = shape_contains(&exact, px, py);
                 covers |= inside;
-                if (inside == shape_contains(&got, px, py)) { continue; }
+                if (inside == shape_contains(&got, px, py)) {
+                    continue;
+                }
                 const real_t away = distance_to_shape(&exact, px, py);
                 worst = fmaxl(worst, away);
                 assert_true(away <= 1 / 16.0L);
@@ -355,7 +394,9 @@ static void clipped_triangles_keep_their_shape_in_the_window(void **state) {
             const real_t *a = exact.p[i], *b = exact.p[(i + 1) % exact.count];
             for (int t = 1; t < 8; t++) {
                 const real_t x = a[0] + (b[0] - a[0]) * t / 8, y = a[1] + (b[1] - a[1]) * t / 8;
-                if (x < 0 || y < 0 || x > v.width || y > v.height) { continue; }
+                if (x < 0 || y < 0 || x > v.width || y > v.height) {
+                    continue;
+                }
                 const real_t away = distance_to_shape(&got, x, y);
                 worst = fmaxl(worst, away);
                 assert_true(away <= 1 / 16.0L);
@@ -363,7 +404,8 @@ static void clipped_triangles_keep_their_shape_in_the_window(void **state) {
         }
         vanished += count == 0 && covers;
     }
-    print_message("clip: %u triangles in the window, %u clipped; deviation %.5Lf px; %u vanished\n", seen, clipped, worst, vanished);
+    print_message("clip: %u triangles in the window, %u clipped; deviation %.5Lf px; %u vanished\n", seen, clipped, worst,
+                  vanished);
     assert_int_equal(vanished, 0);
     assert_true(seen > 500 && clipped > 1000);
 }
@@ -379,9 +421,13 @@ static void a_shared_edge_is_cut_at_one_point(void **state) {
         vertex_t vertices[4], out[2][POINTS_MAX];
         static const uint8_t faces[2][3] = {{0, 1, 2}, {1, 0, 3}};
         int count[2];
-        if (!random_view(&random, &v, q, 4)) { continue; }
+        if (!random_view(&random, &v, q, 4)) {
+            continue;
+        }
         (void)vertex_stage(&v.transform, q[0], NULL, 4, vertices);
-        if (vertices[0].x == VERTEX_OUTSIDE || vertices[1].x != VERTEX_OUTSIDE) { continue; }
+        if (vertices[0].x == VERTEX_OUTSIDE || vertices[1].x != VERTEX_OUTSIDE) {
+            continue;
+        }
         for (int f = 0; f < 2; f++) {
             const clip_face_t face = {q[0], vertices, faces[f], 3};
             count[f] = clip_polygon(&v.transform, &face, out[f], POINTS_MAX);
@@ -392,12 +438,18 @@ static void a_shared_edge_is_cut_at_one_point(void **state) {
         for (int f = 0; f < 2; f++) {
             int at = -1, times = 0;
             for (int i = 0; i < count[f]; i++) {
-                if (memcmp(&out[f][i], &vertices[0], sizeof vertices[0]) == 0) { at = i, times++; }
+                if (memcmp(&out[f][i], &vertices[0], sizeof vertices[0]) == 0) {
+                    at = i, times++;
+                }
             }
             found &= times == 1;
-            if (times == 1) { cut[f] = out[f][(at + (f ? count[f] - 1 : 1)) % count[f]]; }
+            if (times == 1) {
+                cut[f] = out[f][(at + (f ? count[f] - 1 : 1)) % count[f]];
+            }
         }
-        if (!found) { continue; }
+        if (!found) {
+            continue;
+        }
         assert_memory_equal(&cut[0], &cut[1], sizeof cut[0]);
         shared++;
     }
@@ -407,7 +459,9 @@ static void a_shared_edge_is_cut_at_one_point(void **state) {
 
 static void mark(void *context, int32_t row, int32_t first, int32_t end) {
     uint8_t *hits = context;
-    for (int32_t x = first; x < end; x++) { hits[row * 48 + x]++; }
+    for (int32_t x = first; x < end; x++) {
+        hits[row * 48 + x]++;
+    }
 }
 
 /* Two faces of one plane on either side of an edge, each clipped alone: in their union, but for its rim, each pixel is met once. */
@@ -422,14 +476,18 @@ static void no_crack_and_no_overlap_along_a_wide_common_edge(void **state) {
         static const unsigned ring_of_both[4] = {0, 3, 1, 2}, corners[2][3] = {{0, 1, 2}, {1, 0, 3}};
         shape_t both;
         uint8_t hits[48 * 36] = {0};
-        if (!random_view(&random, &v, q, 4)) { continue; }
+        if (!random_view(&random, &v, q, 4)) {
+            continue;
+        }
         bool fits = true;
         for (int j = 0; j < 3; j++) {
             const int32_t p = q[0][j] + q[1][j] - q[2][j];
             fits &= abs(p) < 32768;
             q[3][j] = (int16_t)p;
         }
-        if (!fits) { continue; }
+        if (!fits) {
+            continue;
+        }
         (void)vertex_stage(&v.transform, q[0], NULL, 4, vertices);
         for (int f = 0; f < 2; f++) {
             vertex_t out[POINTS_MAX];
@@ -438,16 +496,22 @@ static void no_crack_and_no_overlap_along_a_wide_common_edge(void **state) {
             const int count = clip_polygon(&v.transform, &face, out, POINTS_MAX);
             const polygon_ring_t ring = {out, NULL, NULL, (uint32_t)count};
             polygon_chain_t chains[8];
-            if (count > 0) { polygon_coverage(&ring, 48, 36, chains, 8, mark, hits); }
+            if (count > 0) {
+                polygon_coverage(&ring, 48, 36, chains, 8, mark, hits);
+            }
         }
         /* The quadrilateral is a parallelogram, so its exact part is one convex shape. */
         exact_clip(&v, (const int16_t(*)[3])q, ring_of_both, 4, 8, &both);
         for (int i = 0; i < 48 * 36; i++) {
             const real_t x = i % 48 + 0.5L, y = i / 48 + 0.5L;
-            if (hits[i] == 1 || !shape_contains(&both, x, y) || distance_to_shape(&both, x, y) <= 1 / 8.0L) { continue; }
+            if (hits[i] == 1 || !shape_contains(&both, x, y) || distance_to_shape(&both, x, y) <= 1 / 8.0L) {
+                continue;
+            }
             assert_int_equal(hits[i], 1);
         }
-        for (int i = 0; i < 48 * 36; i++) { along += hits[i]; }
+        for (int i = 0; i < 48 * 36; i++) {
+            along += hits[i];
+        }
     }
     assert_true(along > 10000);
 }

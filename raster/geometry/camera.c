@@ -1,6 +1,7 @@
 /* Cameras and rotations from what people think in: points, directions, angles. */
 #include "vector.h"
 
+#include "../trig.h"
 #include "../tuile.h"
 
 int tuile_camera_look_at(tuile_camera_t *camera, const q16_16_t eye[3], const q16_16_t at[3], const q16_16_t up[3]) {
@@ -29,8 +30,8 @@ int tuile_camera_look_at(tuile_camera_t *camera, const q16_16_t eye[3], const q1
 
 q16_16_t tuile_focal_px(bam16_t fov, uint16_t size_px) {
     if (fov == 0 || fov >= 0x8000u || size_px == 0) { return 0; }
-    const int64_t cosine = tuile_cos(fov / 2), sine = tuile_sin(fov / 2); /* an odd fov rounds down by half a unit */
-    const int64_t focal = (((int64_t)size_px << 15) * cosine) / sine;     /* 2^25 * 2^30 */
+    const int64_t sine = trig_sine(fov), cosine = trig_sine(0x8000u + fov); /* of half the angle */
+    const int64_t focal = (((int64_t)size_px << 15) * cosine) / sine;       /* 2^31 * 2^30 */
     return focal > INT32_MAX ? 0 : (q16_16_t)focal;
 }
 

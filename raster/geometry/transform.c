@@ -3,8 +3,8 @@
  * In perspective a window coordinate is X / W. Both rows are multiplied by one constant so that W = 65536 / 65528 * w / near:
  * then depth = 65536 / W needs no multiplication (Tuile's depth is 65528 at the near plane, which leaves room for rounding).
  *
- * Precision. An entry of a row is rounded to 2^-31 of the row's largest value over the model, so the sum of three products is off
- * by at most 3 * 2^-16 of a coarse unit. A fine value is thus exact to about 2^-45 of the row's largest value.
+ * Precision. Entries have 31 bits for the fast path and 14 more for the fine one: a fine value is exact to 2^-44 of the row's largest
+ * value over the model, so that a ground plane of 60 000 units is still drawn right where it passes one unit below the eye.
  */
 #include "transform.h"
 
@@ -67,19 +67,15 @@ static int32_t row_exponent(const wide_row_t *row, const tuile_model_t *model) {
 }
 
 static void row_store(transform_row_t *out, const wide_row_t *row, int32_t exponent) {
-    for (int i = 0; i < 3; i++) { out->m[i] = (int32_t)wide_to_integer(row->m[i], exponent); }
+    for (int i = 0; i < 3; i++) {
+        const int64_t exact = wide_to_integer(row->m[i], exponent + 14);
+        out->m[i] = (int32_t)((exact + (1 << 13)) >> 14);
+        out->low[i] = (int16_t)(exact - (int64_t)out->m[i] * (1 << 14));
+    }
     out->t = wide_to_integer(row->t, exponent);
 }
 
-/* By how much rounding the entries of a row may have moved a fine value. */
-static int64_t row_slack(const tuile_model_t *model) {
-    int64_t reach = 0; /* sum of |q| over the axes */
-    for (int i = 0; i < 3; i++) {
-        const int32_t most = (model->centre[i] < 0 ? -model->centre[i] : model->centre[i]) + model->radius;
-        reach += most < 32768 ? most : 32768;
-    }
-    return reach / 2 + 2;
-}
+#define ROW_SLACK 4 /* by how much rounding may have moved a fine value */
 
 static void plane_store(transform_plane_t *plane, const wide_row_t *row) {
     int32_t bits = -32768;
@@ -183,15 +179,15 @@ static int perspective_rows(transform_t *transform, const tuile_camera_t *camera
     transform->k = (int8_t)k;
     transform->depth_shift = (int8_t)(54 - ew);
     /* A vertex that lies in the near or far plane is inside, whatever rounding says. */
-    transform->w_low = wide_to_integer(wide_multiply(near, factor), ew) - row_slack(model);
-    transform->w_high = wide_to_integer(wide_multiply(q16(camera->far), factor), ew) + row_slack(model);
+    transform->w_low = wide_to_integer(wide_multiply(near, factor), ew) - ROW_SLACK;
+    transform->w_high = wide_to_integer(wide_multiply(q16(camera->far), factor), ew) + ROW_SLACK;
     const int64_t limit = ((int64_t)1 << 46) - 1;
     if (transform->w_high > limit) { transform->w_high = limit; }
     /* From 2^(k + 5) on, a coarse unit of X is worth 1/32 unit of the window; from 2^20 on, one of W 1/16 depth step. */
     int32_t fast = k + 5 > 20 ? k + 5 : 20;
     transform->w_fast = fast < 30 ? (int32_t)1 << fast : INT32_MAX;
     const int64_t at_near = wide_to_integer(wide_multiply(near, factor), ew - 16);
-    if (transform->w_fast <= at_near) { transform->w_fast = (int32_t)at_near + 1; }
+    if (transform->w_fast <= at_near + 2) { transform->w_fast = (int32_t)at_near + 3; }
     return TUILE_OK;
 }
 

@@ -13,10 +13,12 @@
 #define LIGHT_MIN 2
 #define LIGHT_MAX 253
 
-/* An affine function of a quantised position q: (sum of m[i] * q[i]) + t, the `fine` value; fine >> 16 is the `coarse` one.
- * |m[i]| < 2^31, and |fine| < 2^46 for every position inside the model's bounding sphere. */
+/* An affine function of a quantised position q: the sum of (m[i] + low[i] / 2^14) * q[i], plus t, is the `fine` value, known to 2 units;
+ * without `low` and divided by 2^16 it is the `coarse` one, known to 2 units of its own.
+ * |m[i]| < 2^31, |low[i]| <= 2^13, and |fine| < 2^46 for every position inside the model's bounding sphere. */
 typedef struct transform_row {
     int32_t m[3];
+    int16_t low[3];
     int64_t t;
 } transform_row_t;
 
@@ -65,7 +67,8 @@ int transform_make(transform_t *transform, const tuile_scene_t *scene, const tui
 void transform_region(transform_t *transform, const transform_region_t *region);
 
 TUILE_INLINE int64_t transform_fine(const transform_row_t *row, const int16_t q[3]) {
-    return (int64_t)row->m[0] * q[0] + (int64_t)row->m[1] * q[1] + (int64_t)row->m[2] * q[2] + row->t;
+    const int32_t low = row->low[0] * q[0] + row->low[1] * q[1] + row->low[2] * q[2]; /* < 3 * 2^28 */
+    return (int64_t)row->m[0] * q[0] + (int64_t)row->m[1] * q[1] + (int64_t)row->m[2] * q[2] + row->t + ((low + (1 << 13)) >> 14);
 }
 
 #endif

@@ -54,7 +54,7 @@ TUILE_INLINE int32_t coarse(const transform_row_t *row, int32_t x, int32_t y, in
 }
 
 static bool perspective(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count, vertex_t *out) {
-    const int32_t first = transform->w_fast, last = (int32_t)(transform->w_high >> 16);
+    const int32_t first = transform->w_fast, last = (int32_t)(transform->w_high >> 16) - 2;
     const uint32_t range = last > first ? (uint32_t)(last - first) : 0; /* strictly inside far plane, too */
     const int32_t k = transform->k, depth_shift = transform->depth_shift;
     const int32_t low_x = transform->guard_x + GUARD_MARGIN, low_y = transform->guard_y + GUARD_MARGIN;

@@ -24,14 +24,22 @@ void ascii_hit(ascii_picture_t *picture, int32_t x, int32_t y) {
 
 void ascii_span(void *context, int32_t row, int32_t first, int32_t end) {
     ascii_picture_t *picture = context;
-    if (first >= end) { picture->outside = true; }
-    for (int32_t x = first; x < end; x++) { ascii_hit(picture, x, row); }
+    if (first >= end) {
+        picture->outside = true;
+    }
+    for (int32_t x = first; x < end; x++) {
+        ascii_hit(picture, x, row);
+    }
 }
 
 bool ascii_same(const ascii_picture_t *picture, const char *const *rows, const char *what) {
     bool same = !picture->outside;
-    for (int32_t y = 0; y < picture->height; y++) { same &= strcmp(picture->rows[y], rows[y]) == 0; }
-    if (same) { return true; }
+    for (int32_t y = 0; y < picture->height; y++) {
+        same &= strcmp(picture->rows[y], rows[y]) == 0;
+    }
+    if (same) {
+        return true;
+    }
     printf("%s%s\n  expected, difference, drawn:\n", what, picture->outside ? ": drawn outside the window, or an empty span" : "");
     for (int32_t y = 0; y < picture->height; y++) {
         char difference[ASCII_MAX_PX + 1];
@@ -47,6 +55,8 @@ bool ascii_same(const ascii_picture_t *picture, const char *const *rows, const c
 
 bool ascii_equal(const ascii_picture_t *picture, const ascii_picture_t *expected, const char *what) {
     const char *rows[ASCII_MAX_PX];
-    for (int32_t y = 0; y < expected->height; y++) { rows[y] = expected->rows[y]; }
+    for (int32_t y = 0; y < expected->height; y++) {
+        rows[y] = expected->rows[y];
+    }
     return picture->width == expected->width && picture->height == expected->height && ascii_same(picture, rows, what);
 }
