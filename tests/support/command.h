@@ -19,7 +19,7 @@ void command_free(command_result_t *result);
 /* The same by a line for the shell. */
 void command_shell(command_result_t *result, const char *line);
 
-/* A line on stderr that begins "tuile: " and no other, nothing on stdout, an exit code that is neither 0 nor a signal's; and every one
+/* A line on stderr that begins "tuile: " and no other, an exit code that is neither 0 nor a signal's; and every one
  * of the words (may be NULL) in that line. */
 bool command_failed_well(const command_result_t *result, const char *word, const char *other_word);
 
