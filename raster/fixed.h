@@ -37,7 +37,7 @@ TUILE_INLINE unsigned fixed_clz64(uint64_t x) {
     return high ? fixed_clz32(high) : 32u + fixed_clz32((uint32_t)x);
 }
 
-/* floor(a / 2^bits) and a * 2^bits without the undefined left shift of a negative number. */
+/* a * 2^bits modulo 2^64, without the undefined left shift of a negative number. */
 TUILE_INLINE int64_t fixed_shift_left64(int64_t a, unsigned bits) { return (int64_t)((uint64_t)a << bits); }
 
 /* floor(a / b), b > 0. */
@@ -58,7 +58,7 @@ TUILE_INLINE int32_t fixed_mul_high(int32_t a, uint32_t b) { return (int32_t)(((
 TUILE_INLINE int64_t fixed_mul_shift(int64_t a, int32_t b, unsigned shift) {
     const int64_t high = (a >> 32) * b;
     const int64_t low = (int64_t)(uint32_t)a * b;
-    if (shift <= 32) { return fixed_shift_left64(high, 32 - shift) + (low >> shift); }
+    if (shift <= 32) { return (int64_t)(((uint64_t)high << (32 - shift)) + (uint64_t)(low >> shift)); } /* modulo 2^64: the sum fits */
     return (high + (low >> 32)) >> (shift - 32);
 }
 

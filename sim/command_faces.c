@@ -93,6 +93,7 @@ int command_faces(int count, char **arguments) {
     options_open(&options, count, arguments);
     while ((argument = options_next(&options)) != NULL) {
         if (!options.name) {
+            if (path) { return command_fail("faces: one scene at a time, but got %s and %s", path, argument), EXIT_USAGE; }
             path = argument;
         } else if (strcmp(argument, "--method") == 0) {
             (void)options_choice(&options, &method, methods);

@@ -157,8 +157,9 @@ static int parse(render_t *r, int count, char **arguments) {
         } else if (strcmp(argument, "--shade") == 0) {
             if (options_choice(&options, &choice, shades)) { r->config.shade = (uint8_t)choice; }
         } else if (strcmp(argument, "--memory") == 0) {
-            if (options.at < count && strcmp(arguments[options.at], "auto") == 0) {
-                options.at++;
+            const char *value = options.inlined ? options.inlined : options.at < count ? arguments[options.at] : "";
+            if (strcmp(value, "auto") == 0) {
+                (void)options_value(&options);
                 r->memory_bytes = 0;
             } else {
                 (void)options_size(&options, &r->memory_bytes);
@@ -403,7 +404,7 @@ static int draw_frame(render_t *r, unsigned frame) {
 
 static void progress(unsigned done, unsigned of) {
     char bar[37];
-    if (!isatty(STDERR_FILENO) && done < of) { return; }
+    if (!isatty(STDERR_FILENO)) { return; }
     const unsigned filled = done * 36 / of;
     for (unsigned i = 0; i < 36; i++) { bar[i] = i < filled ? '#' : '.'; }
     bar[36] = '\0';

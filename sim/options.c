@@ -15,9 +15,14 @@ void options_open(options_t *options, int count, char **arguments) {
 }
 
 const char *options_next(options_t *options) {
+    if (!options->failed && options->inlined && !options->taken) {
+        (void)command_fail("%s takes no value, but got %s", options->name, options->inlined);
+        options->failed = true;
+    }
     if (options->failed || options->at >= options->count) { return NULL; }
     const char *argument = options->arguments[options->at++];
     options->name = options->inlined = NULL;
+    options->taken = false;
     if (argument[0] != '-' || argument[1] == '\0') { return argument; }
     const char *equals = strchr(argument, '=');
     options->name = argument;
@@ -35,6 +40,7 @@ static bool fail(options_t *options) {
 }
 
 const char *options_value(options_t *options) {
+    options->taken = true;
     if (options->inlined) { return options->inlined; }
     if (options->at >= options->count) {
         (void)command_fail("%s wants a value", options->name);

@@ -13,13 +13,14 @@ typedef struct options {
     const char *name;   /* of the current option, NULL for a plain argument */
     const char *inlined; /* value after '=' */
     char buffer[64];
+    bool taken;  /* the value after '=' was asked for */
     bool failed; /* a message has been printed */
 } options_t;
 
 void options_open(options_t *options, int count, char **arguments);
 
 /* The next option in options->name (without value), or a plain argument (options->name NULL) as return value. NULL at the end
- * and after a failure. For an option the return value is its name. */
+ * and after a failure, as which counts a value after '=' that nobody asked for. For an option the return value is its name. */
 const char *options_next(options_t *options);
 
 /* The current option's value; NULL and a message when there is none. */

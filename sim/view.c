@@ -44,7 +44,7 @@ static double world_unit(const framing_t *f, const tuile_model_t *model) {
     double centre[3], radius, largest;
     int exponent;
     model_sphere(model, centre, &radius);
-    largest = fmax(f->far, radius);
+    largest = fmax(fmax(fabs(f->near), fabs(f->far)), radius);
     for (int i = 0; i < 3; i++) { largest = fmax(largest, fmax(fabs(f->eye[i]), fmax(fabs(f->at[i]), fabs(centre[i]) + radius))); }
     (void)frexp(largest, &exponent);
     return ldexp(1.0, 13 - exponent);

@@ -288,6 +288,7 @@ static void faces_says_when_coordinates_are_rounded(void **state) {
 static void two_scenes_at_once_are_refused(void **state) {
     (void)state;
     put("scene", "screen 4 4\ncamera ortho\n");
+    put("other", "screen 4 4\ncamera ortho\n");
     fails("faces @/scene @/other", "other", NULL);
     fails("render @/cube.obj @/torus.obj", "torus.obj", NULL);
     fails("mesh @/cube.obj @/torus.obj -o @/x.tuile", "torus.obj", NULL);
@@ -480,6 +481,8 @@ static void an_error_in_a_later_frame_is_one_line_too(void **state) {
     assert_int_equal(symlink("/dev/full", path_of("later-1.png")), 0);
     put("later-0.png", "there before");
     fails("render @/cube.obj --frames 3 --out @/later-%d.png --report @/r.json", "later-1.png", "space");
+    fails("render @/cube.obj --frames 3 --sheet @/none/sheet.png --report @/r.json", "none/sheet.png", NULL);
+    fails("render @/cube.obj --frames 3 --pick 500,0 --report @/r.json", "--pick", NULL);
     assert_false(exists("r.json"));
     assert_int_equal(unlink(path_of("later-1.png")), 0);
     assert_int_equal(unlink(path_of("later-0.png")), 0);

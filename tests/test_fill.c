@@ -1180,7 +1180,7 @@ static void the_nearer_face_wins_and_ties_go_as_asked(void **state) {
 
 static void depth_of_polygons_stays_near_their_plane(void **state) {
     random_source_t random = random_seed(12);
-    double worst = 0, worst_within = 0;
+    double worst = 0;
     uint64_t pixels = 0;
     (void)state;
     for (int round = 0; round < CHECK_ROUNDS(100000); round++) {
@@ -1214,19 +1214,12 @@ static void depth_of_polygons_stays_near_their_plane(void **state) {
             const double exact = (double)(base + gx * CENTRE(i % SIZE) + gy * CENTRE(i / SIZE)) / 256;
             const double error = fabs(canvas.depth[i] - exact);
             worst = error > worst ? error : worst;
-            /* Away from the ends of the face's range nothing is cut off, and the error is that of a triangle. */
-            const double least = (double)(low + base) / 256 + 1, most = (double)(high + base) / 256 - 1;
-            if (exact > least && exact < most) {
-                worst_within = error > worst_within ? error : worst_within;
-            }
             pixels++;
         }
     }
-    print_message("planar polygons: depth error %.6f step, %.6f away from the ends of the range, %llu pixels\n", worst,
-                  worst_within, (unsigned long long)pixels);
+    print_message("planar polygons: depth error %.6f step, %llu pixels\n", worst, (unsigned long long)pixels);
     assert_true(pixels > 10000);
-    assert_true(worst <= 1);
-    assert_true(worst_within <= 0.5 + 0.0625 + 0x1p-15);
+    assert_true(worst <= 0.5 + 0.0625 + 0x1p-15);
 }
 
 /* Corners that do not lie in one plane: depth is within the range of the face, whatever the plane does. */
@@ -1245,7 +1238,7 @@ static void depth_of_uneven_polygons_stays_in_their_range(void **state) {
         const int32_t from = random_between(&random, 512, 65529 * 256), to = random_between(&random, from, 65529 * 256);
         for (uint32_t i = 0; i < count; i++) {
             face.vertices[i].depth_light = random_depth_light(&random, from, to);
-            const uint32_t depth = face.vertices[i].depth_light >> 16;
+            const uint32_t depth = ((face.vertices[i].depth_light >> 8) + 128) >> 8; /* to the nearest step */
             low = depth < low ? depth : low;
             high = depth > high ? depth : high;
         }

@@ -209,8 +209,8 @@ static bool polygon_plane(polygon_t *polygon, const polygon_ring_t *ring, int32_
             best2 = v2;
         }
     }
-    polygon->z_low = low << 8;
-    polygon->z_high = high << 8 | 0xffff;
+    polygon->z_low = (low << 8) + 0x8000; /* with the rounding half */
+    polygon->z_high = (high << 8) + 0x8000;
     if (best == 0) { return false; }
     const int32_t x1 = best1->x - v0->x, y1 = best1->y - v0->y, x2 = best2->x - v0->x, y2 = best2->y - v0->y;
     const int64_t area = (int64_t)x2 * y1 - (int64_t)x1 * y2;

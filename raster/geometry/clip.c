@@ -158,8 +158,6 @@ int clip_polygon(const transform_t *transform, const clip_face_t *face, vertex_t
         const clip_point_t p = corner_point(transform, face, i);
         for (unsigned kind = 0; kind < CLIP_PLANES; kind++) { crossed |= (unsigned)!is_inside(transform, &p, kind) << kind; }
     }
-    /* A face through the near plane may reach any side of the guard band in front of it, even one that no corner is beyond. */
-    if (crossed & (1u << CLIP_NEAR)) { crossed = (1u << CLIP_PLANES) - 1; }
     for (unsigned kind = 0; kind < CLIP_PLANES; kind++) {
         if (crossed & (1u << kind)) {
             state.plane[state.planes].kind = (uint8_t)kind;

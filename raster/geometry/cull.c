@@ -28,7 +28,7 @@ bool cull_outside(const transform_t *transform, const uint8_t *cluster) {
 
 bool cull_faces_away(const transform_t *transform, const uint8_t *cluster) {
     const uint32_t cutoff = cluster[CLUSTER_AT_CUTOFF];
-    if (cutoff == 255 || transform->two_sided) { return false; }
+    if (cutoff == 255 || !transform->cones) { return false; }
 
     int64_t dot = 0;
     uint64_t squares = 0;

@@ -127,11 +127,12 @@ static void eye_position(transform_t *transform, const tuile_camera_t *camera, c
         eye[j] = wide_add(wide_multiply(sum, per_step), wide_make(-(int64_t)instance->model->offset[j], 0));
         if (wide_bits(eye[j]) > bits) { bits = wide_bits(eye[j]); }
     }
-    transform->eye_shift = (uint8_t)(bits > 20 ? (bits - 20 > 40 ? 40 : bits - 20) : 0);
-    for (int j = 0; j < 3; j++) {
-        const int64_t value = wide_to_integer(eye[j], -(int32_t)transform->eye_shift);
-        transform->eye[j] = (int32_t)(value > (1 << 21) ? 1 << 21 : value < -(1 << 21) ? -(1 << 21) : value);
+    if (bits > 20 + 31) {
+        transform->cones = false;
+        return;
     }
+    transform->eye_shift = (uint8_t)(bits > 20 ? bits - 20 : 0);
+    for (int j = 0; j < 3; j++) { transform->eye[j] = (int32_t)wide_to_integer(eye[j], -(int32_t)transform->eye_shift); }
 }
 
 static void view_direction(transform_t *transform, const tuile_camera_t *camera, const tuile_instance_t *instance) {
@@ -232,12 +233,13 @@ int transform_make(transform_t *transform, const tuile_scene_t *scene, const tui
     error = transform->perspective ? perspective_rows(transform, camera, instance->model, view)
                                    : orthographic_rows(transform, camera, instance->model, view);
     if (error) { return error; }
+    light_vectors(transform, scene, instance);
+    transform->cones = !instance->two_sided;
     if (transform->perspective) {
         eye_position(transform, camera, instance);
     } else {
         view_direction(transform, camera, instance);
     }
-    light_vectors(transform, scene, instance);
     return TUILE_OK;
 }
 

@@ -45,6 +45,7 @@ typedef struct transform {
     transform_plane_t planes[PLANE_COUNT];
     int32_t eye[3];    /* perspective: steps >> eye_shift; orthographic: the view direction, |.| <= 2^20 */
     uint8_t eye_shift; /* eyes far away are cut to 21 bits */
+    bool cones;        /* clusters may be dropped by their cones: one-sided, and the eye within 2^51 steps */
     /* Light. */
     int32_t lights[TRANSFORM_LIGHTS_MAX][3]; /* in model space, towards the light, scaled: (normal . light) >> 13 is 0 ... 255;
                                                 |components| <= 16512 */
