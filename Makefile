@@ -15,7 +15,8 @@ endif
 
 WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes \
         -Wcast-qual -Wwrite-strings -Wundef -Wvla -Werror
-CFLAGS_CORE := -std=c11 -O2 -g -ffreestanding $(WARN)
+CFLAGS_CORE := -std=c11 -O2 -g -ffreestanding -fno-pie $(WARN) # as on a board: constants with pointers are read-only
+LDFLAGS := -no-pie
 CFLAGS_HOST := -std=c11 -O2 -g -D_GNU_SOURCE $(WARN)
 # What gcc computes behind a loop costs more than the loops of small faces save (measured: DESIGN.md, Speed).
 ifneq (,$(findstring gcc,$(CC)))
@@ -77,15 +78,15 @@ $(BUILD)/need/lint: ; $(call need,clang-tidy cppcheck,static analysis)
 $(BUILD)/need/format: ; $(call need,clang-format,formatting)
 
 # ---- objects and programs ------------------------------------------------------------------------------------------
-$(CORE_OBJ): $(OBJ)/%.o: %.c
+$(CORE_OBJ): $(OBJ)/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	@echo "  $(notdir $(CC)) $<"; $(CC) $(CFLAGS_CORE) -MMD -MP -c $< -o $@
 
-$(OBJ)/sim/%.o: sim/%.c | $(BUILD)/need/sim
+$(OBJ)/sim/%.o: sim/%.c Makefile | $(BUILD)/need/sim
 	@mkdir -p $(@D)
 	@echo "  $(notdir $(CC)) $<"; $(CC) $(CFLAGS_HOST) -MMD -MP -c $< -o $@
 
-$(OBJ)/tests/%.o: tests/%.c | $(BUILD)/need/test $(BUILD)/need/sim
+$(OBJ)/tests/%.o: tests/%.c Makefile | $(BUILD)/need/test $(BUILD)/need/sim
 	@mkdir -p $(@D)
 	@echo "  $(notdir $(CC)) $<"; $(CC) $(CFLAGS_HOST) -MMD -MP -c $< -o $@
 
