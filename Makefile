@@ -64,7 +64,7 @@ define need
 	@mkdir -p $(@D) && touch $@
 endef
 
-.PHONY: help all demo test test-asan test-clang check bench size format format-check lint clean
+.PHONY: golden help all demo test test-asan test-clang check bench size format format-check lint clean
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' Makefile | sed 's/:.*##/\t/' | expand -t 16
 
@@ -101,7 +101,7 @@ $(OBJ)/test_%: $(OBJ)/tests/test_%.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
 
 $(OBJ)/tests/fuzz_%.o: CFLAGS_HOST += -DFUZZ_DRIVER
 $(OBJ)/fuzz_%: $(OBJ)/tests/fuzz_%.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
-	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@
 
 .SECONDARY:
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
@@ -143,6 +143,9 @@ test: ## builds and passes everything: gcc, sanitizers, clang
 	$(MAKE) --no-print-directory check VARIANT=asan
 	$(MAKE) --no-print-directory test-clang
 	@echo "All test programs passed, with gcc, under ASan + UBSan, and built by clang."
+
+golden: $(OBJ)/test_golden $(TUILE) $(SPIDER) $(BUNNY_6000) ## draw the golden pictures anew; look at them before you commit them
+	@UPDATE_GOLDEN=1 TUILE=$(TUILE) SPIDER=$(SPIDER) BUNNY_6000=$(BUNNY_6000) BUILD=$(BUILD) $<
 
 test-asan: ## all tests under ASan and UBSan
 	$(MAKE) --no-print-directory check VARIANT=asan

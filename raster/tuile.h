@@ -44,6 +44,7 @@ typedef enum tuile_error {
     TUILE_ERROR_CAMERA = -4,   /* degenerate: eye = at, up along the view, near <= 0, far <= near ... */
     TUILE_ERROR_RANGE = -5,    /* model, pose and camera together leave the number range */
     TUILE_ERROR_SEQUENCE = -6, /* tuile_next without tuile_begin, and the like */
+    TUILE_ERROR_LIMITS = -7,   /* a model exceeds the cluster_vertices or corners that the renderer was laid out for */
 } tuile_error_t;
 
 /* One line of English about an error code; never NULL. */
@@ -176,7 +177,8 @@ typedef struct tuile_config {
     uint8_t shade;                    /* tuile_shade_t */
     uint8_t tie;                      /* tuile_tie_t */
     uint8_t buffers;                  /* tiles in flight: 1 or 2; 0 = 2 */
-    uint16_t cluster_vertices;        /* largest cluster of any model to be drawn, 0 = 255 */
+    uint16_t cluster_vertices;        /* largest cluster of any model to be drawn (cluster_vertices_max), 0 = 255 */
+    uint16_t corners;                 /* corners of the face with most (corners_max), up to 255, 0 = 4 */
     uint16_t tile_first, tile_step;   /* draw tiles first, first + step, ... in row-major order; step 0 = 1 */
     uint16_t row_first, row_end;      /* draw only the tiles that start in rows [first, end); end 0 = height */
 } tuile_config_t;
@@ -186,13 +188,16 @@ typedef struct tuile_config {
 #define TUILE_ALIGN8(n) (((n) + 7u) & ~(size_t)7u)
 #define TUILE_ALIGN64(n) (((n) + 63u) & ~(size_t)63u)
 #define TUILE_STATE_BYTES 1024u /* the renderer itself: an upper bound, asserted */
-#define TUILE_CLIP_BYTES 512u   /* room for one clipped face */
+#define TUILE_CLIP_BYTES 512u   /* room for one clipped face of up to four corners */
+/* The same for more corners: to be added to the sizes below. A plane may turn n vertices of a face that is not convex into 3 n / 2, and
+ * there are six: n * 1.5^6 vertices of 8 bytes. */
+#define TUILE_CORNERS_BYTES(corners) ((corners) > 4u ? 96u * (size_t)(corners) : 0u)
 /* State, tile buffers, their depth, one shading ramp and the table of tile rows. */
 #define TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers)                                                              \
     (TUILE_STATE_BYTES + TUILE_ALIGN64(2u * (tile_w) * (tile_h)) +                                                              \
      (buffers)*TUILE_ALIGN64((size_t)TUILE_FORMAT_BYTES(format) * (tile_w) * (tile_h)) + 128u +                                  \
      TUILE_ALIGN8(2u * (((height) + (tile_h)-1u) / (tile_h))))
-/* The least block that draws any scene whose clusters have at most cluster_vertices vertices. */
+/* The least block that draws any scene whose clusters have at most cluster_vertices vertices and whose faces at most four corners. */
 #define TUILE_LEAST_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices)                                            \
     (TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers) + 8u * (cluster_vertices) + TUILE_CLIP_BYTES)
 
@@ -262,7 +267,7 @@ typedef struct tuile_hit {
 
 /* The face seen at pixel (x, y) of the window that config describes, and the point of it there: where the ray through the pixel's centre
  * meets the plane of the face (saturated where the face is seen from its edge). block: scratch, 8-byte aligned, of at least
- * TUILE_PICK_BYTES. Only config's width, height, tie and cluster_vertices matter. Returns 1 and the hit, 0 where the background is seen,
+ * TUILE_PICK_BYTES. Only config's width, height, tie, cluster_vertices and corners matter. Returns 1 and the hit, 0 where the background is seen,
  * or an error. */
 #define TUILE_PICK_BYTES(height, cluster_vertices) TUILE_LEAST_BYTES(height, 1u, 1u, TUILE_FACE_IDS, 1u, cluster_vertices)
 int tuile_pick(const tuile_scene_t *scene, const tuile_config_t *config, uint16_t x, uint16_t y, void *block, size_t size_bytes,

@@ -48,6 +48,8 @@ static int draw(faces_t *faces, const tuile_config_t *wanted, size_t memory_byte
         result = tuile_model_open(&model, faces->bytes, size_bytes);
         if (result) { return command_fail("internal: %s", tuile_error_text(result)); }
         scene.instance_count = 1;
+        config.cluster_vertices = model.cluster_vertices_max;
+        config.corners = model.corners_max;
     }
     instance.pose = view.pose;
     scene.camera = view.camera;

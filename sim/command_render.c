@@ -228,13 +228,14 @@ static size_t one_pass_bytes(const tuile_model_t *model, const tuile_config_t *c
     const size_t tile_width = config->tile_width ? config->tile_width : config->width;
     const size_t tile_height = config->tile_height ? config->tile_height : 24;
     return TUILE_LEAST_BYTES((size_t)config->height, tile_width, tile_height, config->format, 2u, 255u) + 16u * (size_t)model->vertex_count +
-           130u * (size_t)model->material_count + 24u * (size_t)model->face_count + 65536u;
+           130u * (size_t)model->material_count + TUILE_CORNERS_BYTES(model->corners_max) + 24u * (size_t)model->face_count + 65536u;
 }
 
 static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t *config, const tuile_model_t *model, size_t *memory_bytes) {
     size_t wanted = 0;
     tuile_config_t c = *config;
     c.cluster_vertices = model->cluster_vertices_max;
+    c.corners = model->corners_max;
     if (*memory_bytes == 0) {
         *memory_bytes = one_pass_bytes(model, &c);
         if (c.tile_height == 0) { c.tile_height = 16; }
@@ -326,7 +327,8 @@ static int print_pick(render_t *r) {
     tuile_hit_t hit;
     tuile_config_t config = r->config;
     config.cluster_vertices = r->model.cluster_vertices_max;
-    const size_t size = TUILE_PICK_BYTES((size_t)config.height, (size_t)config.cluster_vertices);
+    config.corners = r->model.corners_max;
+    const size_t size = TUILE_PICK_BYTES((size_t)config.height, (size_t)config.cluster_vertices) + TUILE_CORNERS_BYTES(config.corners);
     if (r->pick_at[0] != floor(r->pick_at[0]) || r->pick_at[1] != floor(r->pick_at[1]) || r->pick_at[0] >= config.width ||
         r->pick_at[1] >= config.height) {
         return command_fail("--pick %g,%g: wants whole pixels within %ux%u", r->pick_at[0], r->pick_at[1], config.width, config.height);

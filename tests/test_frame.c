@@ -120,6 +120,16 @@ static tuile_config_t panel_config(const stage_t *stage) {
     return (tuile_config_t){.width = 240, .height = 320, .cluster_vertices = stage->compiled.model.cluster_vertices_max};
 }
 
+/* An orthographic camera at 40 units looking along -z, 16 pixels a unit. */
+static tuile_camera_t plain_camera(uint16_t width, uint16_t height) {
+    tuile_camera_t camera = {.projection = TUILE_ORTHOGRAPHIC, .focal_x = 16 << 16, .focal_y = 16 << 16, .near = 1 << 16, .far = 80 << 16};
+    for (unsigned i = 0; i < 3; i++) { camera.rotation[i][i] = TUILE_ONE_Q30; }
+    camera.eye[2] = 40 << 16;
+    camera.centre_x = (q16_16_t)width * 32768;
+    camera.centre_y = (q16_16_t)height * 32768;
+    return camera;
+}
+
 /* ---- memory ------------------------------------------------------------------------------------------------- */
 
 static void the_least_block_for_a_large_model_is_below_8_kilobytes_and_draws_it(void **state) {
@@ -265,6 +275,52 @@ static void faces_cut_by_the_near_plane_need_no_more_than_the_least_block(void *
         }
     }
     stage_close(&stage);
+}
+
+/* A comb of a floor whose teeth reach through the near plane: every other corner is cut off and two others take its place. */
+static void a_polygon_of_many_corners_cut_by_the_near_plane_fits_the_least_block(void **state) {
+    static const unsigned counts[] = {6, 20, 40, 60, 100, 180, 254};
+    (void)state;
+    for (unsigned i = 0; i < CHECK_COUNT(counts); i++) {
+        const unsigned n = counts[i];
+        model_compiled_t comb;
+        mesh_t mesh;
+        uint32_t corners[254];
+        model_start(&mesh);
+        for (unsigned k = 0; k < n - 2; k++) { corners[k] = model_position(&mesh, (double)k / 32 - (n - 3) / 64.0, -1, k % 2 ? -0.25 : -3); }
+        corners[n - 2] = model_position(&mesh, 4, -1, -4);
+        corners[n - 1] = model_position(&mesh, -4, -1, -4);
+        model_face(&mesh, corners, n, model_material(&mesh, 255, 255, 255));
+        model_compile(&comb, &mesh);
+        assert_int_equal(comb.model.face_count, 1);
+        tuile_instance_t instance = {.model = &comb.model, .pose = {.scale = TUILE_SCALE_ONE}, .two_sided = true};
+        for (unsigned a = 0; a < 3; a++) { instance.pose.rotation[a][a] = TUILE_ONE_Q30; }
+        tuile_scene_t scene = {.instances = &instance, .instance_count = 1, .ambient = 255, .camera = plain_camera(64, 48)};
+        scene.camera.projection = TUILE_PERSPECTIVE;
+        scene.camera.eye[2] = 0;
+        scene.camera.focal_x = scene.camera.focal_y = 24 << 16;
+        scene.camera.near = 1 << 15;
+        tuile_config_t config = {.width = 64, .height = 48, .tile_width = 16, .tile_height = 8};
+        tuile_stats_t stats;
+        uint8_t *expected = draw(&scene, &config, 1 << 20, &stats);
+        assert_int_equal(stats.faces_clipped, 1);
+        config.cluster_vertices = comb.model.cluster_vertices_max;
+        block_t block;
+        tuile_t *renderer;
+        tuile_tile_t tile;
+        block_open(&block, least_bytes(&config));
+        uint8_t *picture = blank(&config);
+        assert_int_equal(tuile_init(&renderer, &config, block.bytes, block.size_bytes, NULL), TUILE_OK);
+        assert_int_equal(tuile_begin(renderer, &scene), TUILE_OK);
+        int result;
+        while ((result = tuile_next(renderer, &tile)) == 1) { paste(picture, &config, &tile); }
+        if (result != 0) { fail_msg("%u corners, clusters of at most %u vertices: %s", n, config.cluster_vertices, tuile_error_text(result)); }
+        assert_memory_equal(picture, expected, picture_bytes(&config));
+        block_close(&block);
+        free(picture);
+        free(expected);
+        model_free(&comb);
+    }
 }
 
 /* ---- order and ownership ------------------------------------------------------------------------------------ */
@@ -602,16 +658,6 @@ static void a_scene_without_instances_is_background(void **state) {
     uint32_t *ids = draw_ids(&scene, 33, 17);
     for (unsigned i = 0; i < 33 * 17; i++) { assert_int_equal(ids[i], 0); }
     free(ids);
-}
-
-/* An orthographic camera at 40 units looking along -z, 16 pixels a unit. */
-static tuile_camera_t plain_camera(uint16_t width, uint16_t height) {
-    tuile_camera_t camera = {.projection = TUILE_ORTHOGRAPHIC, .focal_x = 16 << 16, .focal_y = 16 << 16, .near = 1 << 16, .far = 80 << 16};
-    for (unsigned i = 0; i < 3; i++) { camera.rotation[i][i] = TUILE_ONE_Q30; }
-    camera.eye[2] = 40 << 16;
-    camera.centre_x = (q16_16_t)width * 32768;
-    camera.centre_y = (q16_16_t)height * 32768;
-    return camera;
 }
 
 static tuile_instance_t placed(const tuile_model_t *model, int x) {
@@ -1214,6 +1260,7 @@ int main(void) {
         cmocka_unit_test(forty_sizes_of_memory_and_five_of_tiles_give_one_picture),
         cmocka_unit_test(odd_sizes_of_the_block_are_used_up_to_a_multiple_of_eight),
         cmocka_unit_test(faces_cut_by_the_near_plane_need_no_more_than_the_least_block),
+        cmocka_unit_test(a_polygon_of_many_corners_cut_by_the_near_plane_fits_the_least_block),
         cmocka_unit_test(tiles_sought_backwards_or_at_random_give_the_same_picture),
         cmocka_unit_test(two_renderers_in_turns_draw_a_band_each),
         cmocka_unit_test(a_tile_on_the_wire_is_not_touched_while_the_next_is_drawn),

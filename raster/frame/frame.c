@@ -19,6 +19,7 @@ const char *tuile_error_text(int error) {
     case TUILE_ERROR_CAMERA: return "the camera is degenerate";
     case TUILE_ERROR_RANGE: return "model, pose and camera leave the number range";
     case TUILE_ERROR_SEQUENCE: return "called out of sequence";
+    case TUILE_ERROR_LIMITS: return "a model has larger clusters, or faces with more corners, than the renderer was laid out for";
     default: return "unknown error";
     }
 }
@@ -58,7 +59,7 @@ static uint16_t default_tile_height(const tuile_config_t *c, size_t size_bytes) 
 static bool config_complete(tuile_config_t *c, size_t size_bytes) {
     if (c->width == 0 || c->height == 0 || c->width > TUILE_WINDOW_MAX_PX || c->height > TUILE_WINDOW_MAX_PX || c->buffers > 2 ||
         c->format > TUILE_FACE_IDS || c->method > TUILE_ZBUFFER || c->shade > TUILE_GOURAUD || c->tie > TUILE_TIE_LAST ||
-        c->tile_width > TUILE_WINDOW_MAX_PX || c->tile_height > TUILE_WINDOW_MAX_PX || c->cluster_vertices > 255 ||
+        c->tile_width > TUILE_WINDOW_MAX_PX || c->tile_height > TUILE_WINDOW_MAX_PX || c->cluster_vertices > 255 || c->corners > 255 ||
         c->row_first > c->height || c->row_end > c->height || (c->row_end != 0 && c->row_end < c->row_first)) {
         return false;
     }
@@ -67,6 +68,7 @@ static bool config_complete(tuile_config_t *c, size_t size_bytes) {
     if (c->tile_height == 0) { c->tile_height = default_tile_height(c, size_bytes); }
     if (c->tile_height > c->height) { c->tile_height = c->height; }
     if (c->cluster_vertices == 0) { c->cluster_vertices = 255; }
+    if (c->corners == 0) { c->corners = 4; }
     if (c->tile_step == 0) { c->tile_step = 1; }
     if (c->row_end == 0) { c->row_end = c->height; }
     return true;
@@ -78,7 +80,8 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     *renderer = NULL;
     if (!config_complete(&c, size_bytes)) { return TUILE_ERROR_ARGUMENT; }
     const size_t least =
-        TUILE_LEAST_BYTES((size_t)c.height, (size_t)c.tile_width, (size_t)c.tile_height, c.format, (size_t)c.buffers, (size_t)c.cluster_vertices);
+        TUILE_LEAST_BYTES((size_t)c.height, (size_t)c.tile_width, (size_t)c.tile_height, c.format, (size_t)c.buffers, (size_t)c.cluster_vertices) +
+        TUILE_CORNERS_BYTES(c.corners);
     if (wanted_bytes) { *wanted_bytes = least; }
     if (block == NULL || size_bytes < least) { return TUILE_ERROR_MEMORY; }
     if ((uintptr_t)block % 8 != 0 || size_bytes > UINT32_MAX) { return TUILE_ERROR_ARGUMENT; }
@@ -122,7 +125,7 @@ static int check_scene(const tuile_t *t, const tuile_scene_t *scene, uint32_t *m
         const tuile_model_t *model = scene->instances[i].model;
         unsigned earlier = 0;
         if (model == NULL) { return TUILE_ERROR_ARGUMENT; }
-        if (model->cluster_vertices_max > t->config.cluster_vertices) { return TUILE_ERROR_MEMORY; }
+        if (model->cluster_vertices_max > t->config.cluster_vertices || model->corners_max > t->config.corners) { return TUILE_ERROR_LIMITS; }
         while (scene->instances[earlier].model != model) { earlier++; }
         if (earlier == i) { *materials += model->material_count; }
         *faces += model->face_count;

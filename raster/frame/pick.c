@@ -118,6 +118,7 @@ int tuile_pick(const tuile_scene_t *scene, const tuile_config_t *config, uint16_
     one.tie = config->tie;
     one.buffers = 1;
     one.cluster_vertices = config->cluster_vertices;
+    one.corners = config->corners;
     int result = tuile_init(&t, &one, block, size_bytes, NULL);
     if (result < 0) { return result; }
     t->rows_hint = 1;

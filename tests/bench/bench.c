@@ -71,6 +71,7 @@ int main(int count, char **arguments) {
     config.tile_height = (uint16_t)atoi(arguments[5]);
     config.shade = strcmp(arguments[6], "gouraud") == 0 ? TUILE_GOURAUD : TUILE_FLAT;
     config.cluster_vertices = model.cluster_vertices_max;
+    config.corners = model.corners_max;
     const size_t memory = (size_t)atol(arguments[7]);
     void *block = malloc(memory);
     int result = block ? tuile_init(&renderer, &config, block, memory, &wanted) : TUILE_ERROR_MEMORY;

@@ -46,6 +46,7 @@ static tuile_config_t complete(const test_scene_t *scene, const tuile_config_t *
     c.format = TUILE_FACE_IDS;
     c.tie = (uint8_t)scene->view.tie;
     if (c.cluster_vertices == 0 && scene->scene.instance_count) { c.cluster_vertices = scene->model.cluster_vertices_max; }
+    if (scene->scene.instance_count) { c.corners = scene->model.corners_max; }
     return c;
 }
 
