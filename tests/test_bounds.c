@@ -142,12 +142,12 @@ static void triangles_at_the_ends_of_everything(void **state) {
         triangle_t t;
         triangle_start(&t, v0, v1, v2, first, true);
         t.value = 1;
-        const int32_t left = random_one_in(&random, 2) ? t.left : random_between(&random, t.left, t.right);
+        const int32_t left = random_one_in(&random, 2) ? t.head.left : random_between(&random, t.head.left, t.head.right);
         const raster_tile_t tile = {depth, colour, left, t.row, left + SIZE, t.row + SIZE, SIZE};
         memset(depth, 0, sizeof depth);
         triangle_fill(&t, &tile, SPAN_GOURAUD, random_one_in(&random, 2), ramp);
         triangle_skip(&t, INT16_MAX);
-        assert_int_equal(t.row, t.row_end);
+        assert_int_equal(t.row, t.head.row_end);
         for (int i = 0; i < SIZE * SIZE; i++) {
             assert_true(depth[i] == 0 || (depth[i] >= 2 && depth[i] <= 65529));
         }
@@ -182,12 +182,12 @@ static void polygons_at_the_ends_of_everything(void **state) {
             continue;
         }
         p.value = 1;
-        const int32_t left = random_one_in(&random, 2) ? p.left : 0;
+        const int32_t left = random_one_in(&random, 2) ? p.head.left : 0;
         const raster_tile_t tile = {depth, ids, left, p.row, left + SIZE, p.row + SIZE, SIZE};
         memset(depth, 0, sizeof depth);
         polygon_fill(&p, &ring, &tile, SPAN_IDS, false);
         polygon_skip(&p, &ring, INT16_MAX);
-        assert_int_equal(p.row, p.row_end);
+        assert_int_equal(p.row, p.head.row_end);
         for (int i = 0; i < SIZE * SIZE; i++) {
             assert_true(depth[i] == 0 || (depth[i] >= 2 && depth[i] <= 65529));
         }

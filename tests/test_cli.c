@@ -136,9 +136,10 @@ static void help_goes_to_stdout_and_wrong_usage_to_stderr(void **state) {
 }
 
 static void help_of_render_names_every_option(void **state) {
-    static const char *const options[] = {"--panel", "--rotate", "--clock", "--method", "--shade",  "--memory", "--tile",  "--max-faces", "--frames",
-                                          "--spin",  "--eye",    "--at",    "--up",     "--fov",    "--near",   "--far",   "--ortho",     "--pitch",
-                                          "--centre", "--light", "--background", "--out", "--sheet", "--ids",   "--pick",  "--hash",      "--report"};
+    static const char *const options[] = {"--panel",     "--rotate", "--clock", "--method", "--shade",  "--memory", "--tile",
+                                          "--max-faces", "--frames", "--spin",  "--eye",    "--at",     "--up",     "--fov",
+                                          "--near",      "--far",    "--ortho", "--pitch",  "--centre", "--light",  "--background",
+                                          "--out",       "--sheet",  "--ids",   "--pick",   "--hash",   "--report"};
     char *out = good("render --help");
     (void)state;
     for (unsigned i = 0; i < CHECK_COUNT(options); i++) {
@@ -151,30 +152,29 @@ static void help_of_render_names_every_option(void **state) {
 
 static void coverage_of_polygons_known_by_hand(void **state) {
     (void)state;
-    put("polygons",
-        "16 16 48 16 48 48 16 48\n"             /* two by two pixels */
-        "8 8 40 8 40 40 8 40\n"                 /* edges through centres: left and top are drawn */
-        "\n"
-        "0 0 16 0 16 32 48 32 48 0 64 0 64 48 0 48\r\n" /* a U */
-        "-160 -160 1600 -160 1600 1600 -160 1600\n"     /* larger than the window */
-        "0 0 64 64 64 0 0 64\n"                 /* crosses itself in the middle */
-        "0 0 16 0 32 0\n"                       /* without area */
-        "48 48 16 48 16 16 48 16");             /* the first, the other way round and without a newline */
-    answers("coverage 4 4 < @/polygons",
-            "polygon 0\n1 1 2\n2 1 2\n"
-            "polygon 1\n0 0 1\n1 0 1\n"
-            "polygon 2\n0 0 0\n0 3 3\n1 0 0\n1 3 3\n2 0 3\n"
-            "polygon 3\n0 0 3\n1 0 3\n2 0 3\n3 0 3\n"
-            "polygon 4\n0 3 3\n1 0 0\n1 2 3\n2 0 0\n2 2 3\n3 3 3\n"
-            "polygon 5\n"
-            "polygon 6\n1 1 2\n2 1 2\n");
+    put("polygons", "16 16 48 16 48 48 16 48\n" /* two by two pixels */
+                    "8 8 40 8 40 40 8 40\n"     /* edges through centres: left and top are drawn */
+                    "\n"
+                    "0 0 16 0 16 32 48 32 48 0 64 0 64 48 0 48\r\n" /* a U */
+                    "-160 -160 1600 -160 1600 1600 -160 1600\n"     /* larger than the window */
+                    "0 0 64 64 64 0 0 64\n"                         /* crosses itself in the middle */
+                    "0 0 16 0 32 0\n"                               /* without area */
+                    "48 48 16 48 16 16 48 16");                     /* the first, the other way round and without a newline */
+    answers("coverage 4 4 < @/polygons", "polygon 0\n1 1 2\n2 1 2\n"
+                                         "polygon 1\n0 0 1\n1 0 1\n"
+                                         "polygon 2\n0 0 0\n0 3 3\n1 0 0\n1 3 3\n2 0 3\n"
+                                         "polygon 3\n0 0 3\n1 0 3\n2 0 3\n3 0 3\n"
+                                         "polygon 4\n0 3 3\n1 0 0\n1 2 3\n2 0 0\n2 2 3\n3 3 3\n"
+                                         "polygon 5\n"
+                                         "polygon 6\n1 1 2\n2 1 2\n");
     answers("coverage 4 4 < /dev/null", "");
     put("far", "-524272 -524272 524272 -524272 524272 524272 -524272 524272\n");
     answers("coverage 2 1 < @/far", "polygon 0\n0 0 1\n");
 }
 
 static void coverage_names_the_bad_line(void **state) {
-    static const char *const bad[] = {"1 2 3 4 5\n", "1 2 3 4\n", "1 2 3 4 5 x\n", "1 2 3 4 5 6.5\n", "1 2 3 4 5 524273\n", "- 2 3 4 5 6\n", "1 2 3 4 5 6 7", "1e3 2 3 4 5 6\n"};
+    static const char *const bad[] = {"1 2 3 4 5\n",        "1 2 3 4\n",     "1 2 3 4 5 x\n", "1 2 3 4 5 6.5\n",
+                                      "1 2 3 4 5 524273\n", "- 2 3 4 5 6\n", "1 2 3 4 5 6 7", "1e3 2 3 4 5 6\n"};
     (void)state;
     for (unsigned i = 0; i < CHECK_COUNT(bad); i++) {
         char text[128];
@@ -221,11 +221,14 @@ static void faces_of_scenes_known_by_hand(void **state) {
 static void faces_in_perspective_known_by_hand(void **state) {
     (void)state;
     /* F = 2 about (2, 2): +-1 at Z = 2 is 1 ... 3, +-3/8 at Z = 3/2 is 1.5 ... 2.5. */
-    faces_of("screen 4 4\ncamera persp 2\nsample 1/2 1/2\npoly 3 -1,-1,2 1,-1,2 1,1,2 -1,1,2\npoly 5 -3/8,-3/8,3/2 3/8,-3/8,3/2 3/8,3/8,3/2 -3/8,3/8,3/2\n",
+    faces_of("screen 4 4\ncamera persp 2\nsample 1/2 1/2\npoly 3 -1,-1,2 1,-1,2 1,1,2 -1,1,2\npoly 5 -3/8,-3/8,3/2 3/8,-3/8,3/2 "
+             "3/8,3/8,3/2 -3/8,3/8,3/2\n",
              "0 0 0 0\n0 5 3 0\n0 3 3 0\n0 0 0 0\n");
     faces_of("screen 4 4\ncamera persp 2\nsample 1/2 1/2\npoly 4 -1,0,2 1,0,2 1,1,2 -1,1,2\n", "0 0 0 0\n0 0 0 0\n0 4 4 0\n0 0 0 0\n");
-    faces_of("screen 4 4\ncamera persp 2\nsample 1/2 1/2\nysign -1\npoly 4 -1,0,2 1,0,2 1,1,2 -1,1,2\n", "0 0 0 0\n0 4 4 0\n0 0 0 0\n0 0 0 0\n");
-    faces_of("screen 4 4\ncamera persp 2\nsample 1/2 1/2\norigin 3 1\npoly 4 -1,-1,2 1,-1,2 1,1,2 -1,1,2\n", "0 0 4 4\n0 0 4 4\n0 0 0 0\n0 0 0 0\n");
+    faces_of("screen 4 4\ncamera persp 2\nsample 1/2 1/2\nysign -1\npoly 4 -1,0,2 1,0,2 1,1,2 -1,1,2\n",
+             "0 0 0 0\n0 4 4 0\n0 0 0 0\n0 0 0 0\n");
+    faces_of("screen 4 4\ncamera persp 2\nsample 1/2 1/2\norigin 3 1\npoly 4 -1,-1,2 1,-1,2 1,1,2 -1,1,2\n",
+             "0 0 4 4\n0 0 4 4\n0 0 0 0\n0 0 0 0\n");
     /* Behind the eye, and before the near plane. */
     faces_of("screen 2 2\ncamera persp 2\nsample 1/2 1/2\npoly 4 -9,-9,-2 9,-9,-2 9,9,-2 -9,9,-2\n", "0 0\n0 0\n");
     faces_of("screen 2 2\ncamera persp 2 3\nsample 1/2 1/2\npoly 4 -9,-9,2 9,-9,2 9,9,2 -9,9,2\n", "0 0\n0 0\n");
@@ -300,15 +303,58 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     static const struct {
         const char *option, *value;
     } bad[] = {
-        {"--panel", "st7789"},   {"--rotate", "45"},       {"--rotate", "-90"},    {"--clock", "fast"},      {"--clock", "2000M"},  {"--clock", "-1"},
-        {"--method", "painter"}, {"--shade", "phong"},     {"--memory", "much"},   {"--memory", "-1"},       {"--memory", "2048M"}, {"--memory", "16Kx"},
-        {"--tile", "0x4"},       {"--tile", "16"},         {"--tile", "1025x1"},   {"--tile", "16x16x16"},   {"--max-faces", "0"},  {"--max-faces", "1.5"},
-        {"--frames", "0"},       {"--frames", "100001"},   {"--frames", "x"},      {"--spin", "nan"},        {"--spin", "1e7"},     {"--eye", "1,2"},
-        {"--eye", "1,2,3,4"},    {"--eye", "1,2,inf"},     {"--at", "x,y,z"},      {"--up", "0,0,0"},        {"--up", "1,2"},       {"--fov", "0"},
-        {"--fov", "180"},        {"--near", "1e13"},       {"--far", "-"},         {"--ortho", "0"},         {"--ortho", "-3"},     {"--pitch", "0,1"},
-        {"--pitch", "1"},        {"--centre", "1e5,0"},    {"--light", "0,0,0"},   {"--light", "1"},         {"--background", "12345"},
-        {"--background", "12345g"}, {"--background", "+12345"}, {"--pick", "1"},   {"--pick", "-1,0"},       {"--pick", "240,0"},   {"--pick", "0,320"},
-        {"--pick", "1.5,2"},     {"--far", "0"},           {"--near", "100"},      {"--near", "0"},          {"--ortho", "1e-8"},
+        {"--panel", "st7789"},
+        {"--rotate", "45"},
+        {"--rotate", "-90"},
+        {"--clock", "fast"},
+        {"--clock", "2000M"},
+        {"--clock", "-1"},
+        {"--method", "painter"},
+        {"--shade", "phong"},
+        {"--memory", "much"},
+        {"--memory", "-1"},
+        {"--memory", "2048M"},
+        {"--memory", "16Kx"},
+        {"--tile", "0x4"},
+        {"--tile", "16"},
+        {"--tile", "1025x1"},
+        {"--tile", "16x16x16"},
+        {"--max-faces", "0"},
+        {"--max-faces", "1.5"},
+        {"--frames", "0"},
+        {"--frames", "100001"},
+        {"--frames", "x"},
+        {"--spin", "nan"},
+        {"--spin", "1e7"},
+        {"--eye", "1,2"},
+        {"--eye", "1,2,3,4"},
+        {"--eye", "1,2,inf"},
+        {"--at", "x,y,z"},
+        {"--up", "0,0,0"},
+        {"--up", "1,2"},
+        {"--fov", "0"},
+        {"--fov", "180"},
+        {"--near", "1e13"},
+        {"--far", "-"},
+        {"--ortho", "0"},
+        {"--ortho", "-3"},
+        {"--pitch", "0,1"},
+        {"--pitch", "1"},
+        {"--centre", "1e5,0"},
+        {"--light", "0,0,0"},
+        {"--light", "1"},
+        {"--background", "12345"},
+        {"--background", "12345g"},
+        {"--background", "+12345"},
+        {"--pick", "1"},
+        {"--pick", "-1,0"},
+        {"--pick", "240,0"},
+        {"--pick", "0,320"},
+        {"--pick", "1.5,2"},
+        {"--far", "0"},
+        {"--near", "100"},
+        {"--near", "0"},
+        {"--ortho", "1e-8"},
     };
     (void)state;
     for (unsigned i = 0; i < CHECK_COUNT(bad); i++) {
@@ -327,9 +373,10 @@ static void options_out_of_range_are_refused_by_name(void **state) {
 }
 
 static void an_option_without_its_value_is_refused(void **state) {
-    static const char *const options[] = {"--panel", "--rotate", "--clock", "--method", "--shade", "--memory", "--tile", "--max-faces", "--frames",
-                                          "--spin",  "--eye",    "--at",    "--up",     "--fov",   "--near",   "--far",  "--ortho",     "--pitch",
-                                          "--centre", "--light", "--background", "--out", "--sheet", "--ids",  "--pick", "--report"};
+    static const char *const options[] = {"--panel",     "--rotate", "--clock", "--method", "--shade",  "--memory", "--tile",
+                                          "--max-faces", "--frames", "--spin",  "--eye",    "--at",     "--up",     "--fov",
+                                          "--near",      "--far",    "--ortho", "--pitch",  "--centre", "--light",  "--background",
+                                          "--out",       "--sheet",  "--ids",   "--pick",   "--report"};
     (void)state;
     for (unsigned i = 0; i < CHECK_COUNT(options); i++) {
         char line[128];
@@ -537,7 +584,8 @@ static void too_little_memory_says_how_much_would_do(void **state) {
 static void frames_are_named_by_their_pattern(void **state) {
     (void)state;
     good_silent("render @/cube.obj --frames 3 --out @/frame-%03d.png --ids @/ids-%d.txt --sheet @/sheet.png --report @/report.json");
-    static const char *const names[] = {"frame-000.png", "frame-001.png", "frame-002.png", "ids-0.txt", "ids-1.txt", "ids-2.txt", "sheet.png", "report.json"};
+    static const char *const names[] = {"frame-000.png", "frame-001.png", "frame-002.png", "ids-0.txt",
+                                        "ids-1.txt",     "ids-2.txt",     "sheet.png",     "report.json"};
     for (unsigned i = 0; i < CHECK_COUNT(names); i++) {
         if (!exists(names[i])) { fail_msg("%s", names[i]); }
     }
@@ -695,7 +743,8 @@ static void picking_tells_face_and_place(void **state) {
     answers("render @/cube.obj --ortho 4 --eye 5,0,0 --at 0,0,0 --pick 40,80", "pick 40,80: face 3 at 1,0.99375,0.99375\n");
     answers("render @/cube.obj --ortho 4 --eye 0,0,5 --at 0,0,0 --pick 39,160", "pick 39,160: background\n");
     /* A quarter turn about y brings -x to the front; the point is in the model's own units. */
-    answers("render @/cube.obj --ortho 4 --eye 0,0,5 --at 0,0,0 --frames 2 --spin 90 --pick 120,160", "pick 120,160: face 4 at -1,-0.00625,0.00625\n");
+    answers("render @/cube.obj --ortho 4 --eye 0,0,5 --at 0,0,0 --frames 2 --spin 90 --pick 120,160",
+            "pick 120,160: face 4 at -1,-0.00625,0.00625\n");
 }
 
 /* ---- the report ------------------------------------------------------------------------------------------------ */
@@ -759,11 +808,35 @@ static const char *json_value(const char *at, int depth) {
 }
 
 static void the_report_is_json_with_every_figure_of_every_frame(void **state) {
-    static const char *const fields[] = {
-        "frame",      "hash",          "width",          "height",       "tile_width",         "tile_height",  "faces",      "clusters",        "clusters_outside",
-        "clusters_facing_away",        "vertices",       "faces_tested", "faces_back",         "faces_degenerate",           "faces_outside",   "faces_clipped",
-        "faces_clipped_away",          "faces_binned",   "faces_setup",  "faces_resumed",      "passes",       "tiles",      "tiles_immediate", "size_bytes",
-        "least_bytes",                 "peak_bytes",     "wire_bytes",   "wire_ns",            "fps_bus"};
+    static const char *const fields[] = {"frame",
+                                         "hash",
+                                         "width",
+                                         "height",
+                                         "tile_width",
+                                         "tile_height",
+                                         "faces",
+                                         "clusters",
+                                         "clusters_outside",
+                                         "clusters_facing_away",
+                                         "vertices",
+                                         "faces_tested",
+                                         "faces_back",
+                                         "faces_degenerate",
+                                         "faces_outside",
+                                         "faces_clipped",
+                                         "faces_clipped_away",
+                                         "faces_binned",
+                                         "faces_setup",
+                                         "faces_resumed",
+                                         "passes",
+                                         "tiles",
+                                         "tiles_immediate",
+                                         "size_bytes",
+                                         "least_bytes",
+                                         "peak_bytes",
+                                         "wire_bytes",
+                                         "wire_ns",
+                                         "fps_bus"};
     (void)state;
     char *out = good("render @/torus.obj --frames 3 --hash --tile 240x8 --memory 64K --report @/report.json");
     char *text = command_read(path_of("report.json"), NULL);
@@ -828,11 +901,13 @@ static void c_and_tuile_files_hold_the_same_bytes(void **state) {
     free(out);
     good_silent("mesh @/torus.obj -o @/torus.c");
     good_silent("mesh @/torus.obj -o @/named.c --name the_torus");
-    shell(&result, "cc -std=c11 -Wall -Wextra -Werror -c @/torus.c -o @/torus.o && cc -std=c99 -pedantic -Wall -Wextra -Werror -c @/named.c -o @/named.o");
+    shell(&result, "cc -std=c11 -Wall -Wextra -Werror -c @/torus.c -o @/torus.o && cc -std=c99 -pedantic -Wall -Wextra -Werror -c "
+                   "@/named.c -o @/named.o");
     if (result.code) { fail_msg("%s", result.err); }
     command_free(&result);
     put("dump.c", "#include <stdint.h>\n#include <stdio.h>\n#include <stdlib.h>\nextern const uint32_t the_torus[];\n"
-                  "int main(int count, char **arguments) { return fwrite(the_torus, 1, (size_t)atol(arguments[count - 1]), stdout) == 0; }\n");
+                  "int main(int count, char **arguments) { return fwrite(the_torus, 1, (size_t)atol(arguments[count - 1]), stdout) "
+                  "== 0; }\n");
     char *bytes = command_read(path_of("torus.tuile"), &size), line[256];
     (void)snprintf(line, sizeof line, "cc @/dump.c @/named.o -o @/dump && @/dump %zu > @/dumped", size);
     shell(&result, line);

@@ -1,5 +1,5 @@
-/* Whole frames through the public header: any memory and any order of tiles, what is refused, closed surfaces without holes, picking,
- * and the way of a picture over the wire in four rotations. */
+/* Whole frames through the public header: any memory and any order of tiles, what is refused, closed surfaces without holes,
+ * picking, and the way of a picture over the wire in four rotations. */
 #include "support/check.h"
 #include "support/models.h"
 #include "support/random.h"
@@ -78,7 +78,9 @@ static void paste(uint8_t *picture, const tuile_config_t *config, const tuile_ti
     }
 }
 
-static size_t picture_bytes(const tuile_config_t *config) { return (size_t)TUILE_FORMAT_BYTES(config->format) * config->width * config->height; }
+static size_t picture_bytes(const tuile_config_t *config) {
+    return (size_t)TUILE_FORMAT_BYTES(config->format) * config->width * config->height;
+}
 
 static uint8_t *blank(const tuile_config_t *config) {
     uint8_t *picture = malloc(picture_bytes(config));
@@ -112,7 +114,7 @@ static uint8_t *draw(const tuile_scene_t *scene, const tuile_config_t *config, s
 }
 
 static uint32_t *draw_ids(const tuile_scene_t *scene, uint16_t width, uint16_t height) {
-    const tuile_config_t config = {.width = width, .height = height, .format = TUILE_FACE_IDS};
+    const tuile_config_t config = {.width = width, .height = height, .format = TUILE_FACE_IDS, .corners = 255};
     return (uint32_t *)(void *)draw(scene, &config, 1 << 20, NULL);
 }
 
@@ -142,7 +144,8 @@ static void the_least_block_for_a_large_model_is_below_8_kilobytes_and_draws_it(
     uint8_t *expected = draw(&stage.view.scene, &config, 1 << 20, &stats);
     assert_int_equal(stats.passes, 1);
     const size_t least = least_bytes(&config);
-    assert_int_equal(least, TUILE_LEAST_BYTES((size_t)320, (size_t)240, (size_t)4, TUILE_RGB565_BE, (size_t)2, (size_t)config.cluster_vertices));
+    assert_int_equal(least,
+                     TUILE_LEAST_BYTES((size_t)320, (size_t)240, (size_t)4, TUILE_RGB565_BE, (size_t)2, (size_t)config.cluster_vertices));
     assert_in_range(least, 1, 8192);
     uint8_t *picture = draw(&stage.view.scene, &config, least, &stats);
     assert_memory_equal(picture, expected, picture_bytes(&config));
@@ -261,7 +264,7 @@ static void faces_cut_by_the_near_plane_need_no_more_than_the_least_block(void *
         inside.at[1] = 0.2;
         stage_aim(&stage, &inside, 120, 90);
         for (unsigned shade = 0; shade < 2; shade++) {
-            tuile_config_t config = {.width = 120, .height = 90, .shade = (uint8_t)shade};
+            tuile_config_t config = {.width = 120, .height = 90, .shade = (uint8_t)shade, .corners = 10};
             tuile_stats_t stats;
             uint8_t *expected = draw(&stage.view.scene, &config, 1 << 20, &stats);
             assert_true(stats.faces_clipped > 0);
@@ -300,7 +303,7 @@ static void a_polygon_of_many_corners_cut_by_the_near_plane_fits_the_least_block
         scene.camera.eye[2] = 0;
         scene.camera.focal_x = scene.camera.focal_y = 24 << 16;
         scene.camera.near = 1 << 15;
-        tuile_config_t config = {.width = 64, .height = 48, .tile_width = 16, .tile_height = 8};
+        tuile_config_t config = {.width = 64, .height = 48, .tile_width = 16, .tile_height = 8, .corners = (uint16_t)n};
         tuile_stats_t stats;
         uint8_t *expected = draw(&scene, &config, 1 << 20, &stats);
         assert_int_equal(stats.faces_clipped, 1);
@@ -517,6 +520,7 @@ static void a_configuration_out_of_range_is_an_argument_error(void **state) {
         {.width = 8, .height = 8, .tie = 2},
         {.width = 8, .height = 8, .buffers = 3},
         {.width = 8, .height = 8, .cluster_vertices = 256},
+        {.width = 8, .height = 8, .corners = 256},
         {.width = 8, .height = 8, .row_first = 9},
         {.width = 8, .height = 8, .row_end = 9},
         {.width = 8, .height = 8, .row_first = 5, .row_end = 4},
@@ -542,6 +546,7 @@ static void a_configuration_out_of_range_is_an_argument_error(void **state) {
     assert_in_range(c->tile_height, 1, 8);
     assert_int_equal(c->buffers, 2);
     assert_int_equal(c->cluster_vertices, 255);
+    assert_int_equal(c->corners, 4);
     assert_int_equal(c->tile_step, 1);
     assert_int_equal(c->row_end, 8);
 }
@@ -613,7 +618,21 @@ static void a_scene_that_cannot_be_drawn_is_refused_at_its_beginning(void **stat
     /* A cluster larger than the configuration promised. */
     config.cluster_vertices = (uint16_t)(stage.compiled.model.cluster_vertices_max - 1);
     assert_int_equal(tuile_init(&renderer, &config, block, sizeof block, NULL), TUILE_OK);
-    assert_int_equal(tuile_begin(renderer, &stage.view.scene), TUILE_ERROR_MEMORY);
+    assert_int_equal(tuile_begin(renderer, &stage.view.scene), TUILE_ERROR_LIMITS);
+    stage_close(&stage);
+
+    /* A face with more corners. */
+    mesh_t mesh;
+    model_room(&mesh);
+    stage_open(&stage, &mesh, 240, 320);
+    assert_int_equal(stage.compiled.model.corners_max, 10);
+    for (unsigned corners = 0; corners <= 10; corners += corners ? 1 : 9) {
+        config = panel_config(&stage);
+        config.tile_height = 4;
+        config.corners = (uint16_t)corners;
+        assert_int_equal(tuile_init(&renderer, &config, block, sizeof block, NULL), TUILE_OK);
+        assert_int_equal(tuile_begin(renderer, &stage.view.scene), corners == 10 ? TUILE_OK : TUILE_ERROR_LIMITS);
+    }
     stage_close(&stage);
 }
 
@@ -697,9 +716,7 @@ static void ids_are_counted_through_two_models(void **state) {
         }
     }
     /* Of the octahedron the four octants with z > 0, one in each quarter: source 0 is +x +y, 1 is -x +y, 2 is +x -y. */
-    static const struct {
-        unsigned x, y, source;
-    } quarters[] = {{84, 28, 0}, {75, 28, 1}, {84, 35, 2}, {75, 35, 3}};
+    static const struct { unsigned x, y, source; } quarters[] = {{84, 28, 0}, {75, 28, 1}, {84, 35, 2}, {75, 35, 3}};
     for (unsigned q = 0; q < 4; q++) {
         const uint32_t id = ids[quarters[q].y * 160 + quarters[q].x];
         assert_in_range(id, 7, 14);
@@ -711,7 +728,8 @@ static void ids_are_counted_through_two_models(void **state) {
     for (unsigned shade = 0; shade < 2; shade++) {
         const tuile_config_t config = {.width = 160, .height = 64, .format = TUILE_RGB565_LE, .shade = (uint8_t)shade};
         uint16_t *picture = (uint16_t *)(void *)draw(&scene, &config, 1 << 16, NULL);
-        const unsigned left = picture[32 * 160 + 32], right = picture[32 * 160 + 128], red = picture[28 * 160 + 84], blue = picture[28 * 160 + 75];
+        const unsigned left = picture[32 * 160 + 32], right = picture[32 * 160 + 128], red = picture[28 * 160 + 84],
+                       blue = picture[28 * 160 + 75];
         assert_int_equal(left, right);
         assert_in_range(left >> 11, 23, 25); /* 204 / 255 of 31, light at most 253 / 255 */
         assert_in_range(left >> 5 & 63, 49, 51);
@@ -729,7 +747,8 @@ static void many_colours(model_compiled_t *compiled, unsigned count, unsigned bl
     model_start(&mesh);
     for (unsigned i = 0; i < count; i++) {
         const double x = i % 16 * 0.25 - 2, y = i / 16 * 0.25 - 2;
-        const uint32_t corners[3] = {model_position(&mesh, x, y, 0), model_position(&mesh, x + 0.25, y, 0), model_position(&mesh, x, y + 0.25, 0)};
+        const uint32_t corners[3] = {model_position(&mesh, x, y, 0), model_position(&mesh, x + 0.25, y, 0),
+                                     model_position(&mesh, x, y + 0.25, 0)};
         model_face(&mesh, corners, 3, model_material(&mesh, i, 255 - i, blue));
     }
     model_compile(compiled, &mesh);
@@ -963,14 +982,16 @@ typedef struct corners {
     unsigned count;
 } corners_t;
 
-/* Positions of the corners of the visible face, from the mesh that was compiled: the model's order is found through its source map. */
+/* Positions of the corners of the visible face, from the mesh that was compiled: the model's order is found through its source map.
+ */
 static corners_t source_corners(const tuile_model_t *model, const mesh_t *mesh, uint32_t face) {
     const mesh_face_t *source = &mesh->faces[tuile_model_source_face(model, face)];
     const long double step = ldexpl((long double)model->step.mantissa, model->step.exponent);
     corners_t corners = {.count = source->count};
     for (unsigned i = 0; i < source->count; i++) {
         for (unsigned a = 0; a < 3; a++) {
-            corners.at[i][a] = (int32_t)(floorl((long double)mesh->positions[mesh->corners[source->first + i]][a] / step + 0.5L)) - model->offset[a];
+            corners.at[i][a] =
+                (int32_t)(floorl((long double)mesh->positions[mesh->corners[source->first + i]][a] / step + 0.5L)) - model->offset[a];
         }
     }
     return corners;
@@ -1002,7 +1023,8 @@ static void project(const tuile_scene_t *scene, const tuile_hit_t *hit, long dou
     for (unsigned i = 0; i < 3; i++) {
         world[i] = (long double)instance->pose.translation[i] / 65536 - (long double)camera->eye[i] / 65536;
         for (unsigned k = 0; k < 3; k++) {
-            world[i] += (long double)instance->pose.rotation[i][k] / TUILE_ONE_Q30 * step * (model->offset[k] + (long double)hit->point[k] / 65536);
+            world[i] +=
+                (long double)instance->pose.rotation[i][k] / TUILE_ONE_Q30 * step * (model->offset[k] + (long double)hit->point[k] / 65536);
         }
     }
     for (unsigned i = 0; i < 3; i++) {
@@ -1020,7 +1042,7 @@ static void coarse_sphere(mesh_t *mesh) { model_sphere(mesh, 9, 16); }
 
 static void picking_agrees_with_the_picture_and_its_point_lies_on_the_face(void **state) {
     static void (*const make[])(mesh_t *) = {model_cube, model_octahedron, model_room, coarse_torus, coarse_sphere};
-    static uint64_t block[2048];
+    static uint64_t block[(TUILE_PICK_BYTES(160u, 255u) + TUILE_CORNERS_BYTES(10u) + 7) / 8];
     random_source_t random = random_seed(11);
     long double worst_pixel = 0, worst_plane = 0;
     unsigned hits = 0, misses = 0;
@@ -1041,7 +1063,7 @@ static void picking_agrees_with_the_picture_and_its_point_lies_on_the_face(void 
             view_frame(&stage.view, frame);
             stage.view.instance.two_sided = frame % 2 != 0;
             uint32_t *ids = draw_ids(&stage.view.scene, 120, 160);
-            const tuile_config_t config = {.width = 120, .height = 160};
+            const tuile_config_t config = {.width = 120, .height = 160, .corners = stage.compiled.model.corners_max};
             for (unsigned n = 0; n < CHECK_ROUNDS(400); n++) {
                 const uint16_t x = (uint16_t)random_between(&random, 0, 119), y = (uint16_t)random_between(&random, 0, 159);
                 tuile_hit_t hit;
@@ -1070,8 +1092,8 @@ static void picking_agrees_with_the_picture_and_its_point_lies_on_the_face(void 
         mesh_free(&copy);
         stage_close(&stage);
     }
-    print_message("picked %u faces, %u times background; off the pixel's centre by at most %.2Lg px, off the plane by %.2Lg steps\n", hits, misses,
-                  worst_pixel, worst_plane);
+    print_message("picked %u faces, %u times background; off the pixel's centre by at most %.2Lg px, off the plane by %.2Lg steps\n", hits,
+                  misses, worst_pixel, worst_plane);
     assert_true(hits > CHECK_ROUNDS(2000) && misses > CHECK_ROUNDS(1000));
     assert_true(worst_pixel < 0.02L);
     assert_true(worst_plane < 0.001L);
@@ -1153,7 +1175,8 @@ static void the_panel_shows_the_picture_in_all_rotations(void **state) {
             tuile_t *renderer;
             sim_error_t error = {""};
             board_open(&board, rotation);
-            tuile_config_t config = {.width = board.display.width, .height = board.display.height, .tile_width = tiles[i][0], .tile_height = tiles[i][1]};
+            tuile_config_t config = {
+                .width = board.display.width, .height = board.display.height, .tile_width = tiles[i][0], .tile_height = tiles[i][1]};
             assert_int_equal(config.width, rotation % 2 ? 320 : 240);
             assert_int_equal(config.height, rotation % 2 ? 240 : 320);
             stage_aim(&stage, NULL, config.width, config.height);
@@ -1174,7 +1197,9 @@ static void the_panel_shows_the_picture_in_all_rotations(void **state) {
             unsigned colours = 0;
             for (size_t p = 0; p < (size_t)seen.width * seen.height; p++) {
                 const unsigned wire = (unsigned)expected[2 * p] << 8 | expected[2 * p + 1];
-                if (to_565(seen.rgb + 3 * p) != wire) { fail_msg("rotation %u, pixel %zu: %04x, not %04x", rotation, p, to_565(seen.rgb + 3 * p), wire); }
+                if (to_565(seen.rgb + 3 * p) != wire) {
+                    fail_msg("rotation %u, pixel %zu: %04x, not %04x", rotation, p, to_565(seen.rgb + 3 * p), wire);
+                }
                 colours += p > 0 && memcmp(seen.rgb + 3 * p, seen.rgb + 3 * p - 3, 3) != 0;
             }
             assert_true(colours > 300);

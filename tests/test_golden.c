@@ -1,8 +1,8 @@
 /* Golden pictures: small models drawn as they were when someone last looked at them, and hashes of frames of the demo.
  *
  * tests/golden holds a picture for each model and way of shading, hashes.txt the hashes of what the renderer put out for them, and
- * demo.txt those of the demo's frames 0, 9, 18 and 27. Where a picture differs, build/golden gets what was drawn and where it differs.
- * UPDATE_GOLDEN=1 in the environment writes all of them anew; then look at them. */
+ * demo.txt those of the demo's frames 0, 9, 18 and 27. Where a picture differs, build/golden gets what was drawn and where it
+ * differs. UPDATE_GOLDEN=1 in the environment writes all of them anew; then look at them. */
 #include "support/check.h"
 #include "support/command.h"
 #include "support/models.h"
@@ -75,7 +75,8 @@ static void hashes_close(hashes_t *hashes) {
     if (updating) {
         command_write(hashes->path, hashes->written, strlen(hashes->written));
     } else if (strcmp(hashes->old, hashes->written) != 0) {
-        fail_msg("%s does not say what was drawn just now; if that is meant, `make golden` and look at the pictures\n%s", hashes->path, hashes->written);
+        fail_msg("%s does not say what was drawn just now; if that is meant, `make golden` and look at the pictures\n%s", hashes->path,
+                 hashes->written);
     }
     free(hashes->old);
 }
@@ -103,14 +104,22 @@ static void draw(unsigned m, unsigned shade, uint16_t *picture) {
         options.near = 0.1;
     }
     if (view_make(&view, &options, &compiled.model, WIDTH, HEIGHT, 1, &error) != 0) { fail_msg("%s", error.text); }
-    const tuile_config_t config = {.width = WIDTH, .height = HEIGHT, .tile_width = 32, .tile_height = 16, .format = TUILE_RGB565_LE, .shade = (uint8_t)shade};
+    const tuile_config_t config = {.width = WIDTH,
+                                   .height = HEIGHT,
+                                   .tile_width = 32,
+                                   .tile_height = 16,
+                                   .format = TUILE_RGB565_LE,
+                                   .shade = (uint8_t)shade,
+                                   .corners = compiled.model.corners_max};
     assert_int_equal(tuile_init(&renderer, &config, block, sizeof block, NULL), 0);
     assert_int_equal(tuile_begin(renderer, &view.scene), 0);
-    while (tuile_next(renderer, &tile) == 1) {
+    int result;
+    while ((result = tuile_next(renderer, &tile)) == 1) {
         for (unsigned y = 0; y < tile.height; y++) {
             memcpy(picture + (tile.y + y) * WIDTH + tile.x, tile.bytes + 2u * y * tile.width, 2u * tile.width);
         }
     }
+    assert_int_equal(result, 0);
     assert_int_equal(tuile_end(renderer, NULL), 0);
     model_free(&compiled);
 }

@@ -238,13 +238,13 @@ bool polygon_start(polygon_t *polygon, const polygon_ring_t *ring, int32_t first
         least = x < least ? x : least;
         most = x > most ? x : most;
     }
-    polygon->left = (int16_t)edge_row(least);
-    polygon->right = (int16_t)edge_row(most);
+    polygon->head.left = (int16_t)edge_row(least);
+    polygon->head.right = (int16_t)edge_row(most);
     polygon->row = (int16_t)row;
-    polygon->row_end = (int16_t)end;
+    polygon->head.row_end = (int16_t)end;
     const unsigned count = polygon_chains(ring, polygon->chains, POLYGON_CHAINS);
     polygon->chain_count = (uint8_t)(count > POLYGON_CHAINS ? 0 : count);
-    polygon->size_bytes = (uint16_t)(offsetof(polygon_t, chains) + polygon->chain_count * sizeof(polygon_chain_t));
+    polygon->head.size_bytes = (uint16_t)(offsetof(polygon_t, chains) + polygon->chain_count * sizeof(polygon_chain_t));
     chains_enter(ring, polygon->chains, polygon->chain_count, row, true);
     return true;
 }
@@ -281,7 +281,7 @@ static void polygon_span(const polygon_t *polygon, const raster_tile_t *tile, in
 }
 
 void polygon_fill(polygon_t *polygon, const polygon_ring_t *ring, const raster_tile_t *tile, span_kind_t kind, bool last) {
-    const int32_t end = polygon->row_end < tile->bottom ? polygon->row_end : tile->bottom;
+    const int32_t end = polygon->head.row_end < tile->bottom ? polygon->head.row_end : tile->bottom;
     for (; polygon->row < end; polygon->row++) {
         const int32_t row = polygon->row;
         int32_t crossings[POLYGON_CHAINS];
@@ -300,7 +300,7 @@ void polygon_fill(polygon_t *polygon, const polygon_ring_t *ring, const raster_t
 }
 
 void polygon_skip(polygon_t *polygon, const polygon_ring_t *ring, int32_t target) {
-    const int32_t end = polygon->row_end < target ? polygon->row_end : target;
+    const int32_t end = polygon->head.row_end < target ? polygon->head.row_end : target;
     for (; polygon->row < end; polygon->row++) {
         chains_step(ring, polygon->chains, polygon->chain_count, polygon->row);
         polygon->z += polygon->dzdy;

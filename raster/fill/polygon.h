@@ -49,9 +49,8 @@ bool polygon_crossing(const polygon_ring_t *ring, int32_t row, uint32_t n, int32
 #define POLYGON_CHAINS 8 /* more chains than that are found row by row with polygon_crossing */
 
 typedef struct polygon {
-    uint16_t size_bytes; /* as in triangle_t */
-    uint16_t record;
-    int16_t row, row_end, left, right;
+    fill_head_t head;
+    int16_t row;
     uint8_t chain_count; /* 0: too many */
     uint32_t value;
     /* Depth at the centre of pixel (0, row) and its gradients, Q.16, and the range of the face: a polygon's corners need not lie

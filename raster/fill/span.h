@@ -17,6 +17,14 @@ typedef struct raster_tile {
     int32_t stride_px;
 } raster_tile_t;
 
+/* What every state that is carried from one row of tiles to the next begins with. */
+typedef struct fill_head {
+    uint16_t size_bytes;
+    uint16_t record;     /* the face's record: it orders faces, and tells colour and vertices */
+    int16_t row_end;     /* the face covers no row from here on */
+    int16_t left, right; /* pixels that it may touch: left ... right - 1 */
+} fill_head_t;
+
 typedef enum span_kind { SPAN_FLAT, SPAN_GOURAUD, SPAN_IDS } span_kind_t;
 
 TUILE_INLINE bool span_wins(uint16_t depth, uint16_t stored, bool last) { return last ? depth >= stored : depth > stored; }

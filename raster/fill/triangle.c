@@ -52,14 +52,14 @@ TUILE_INLINE void side_start(triangle_t *triangle, bool left, int32_t x0, int32_
 /* The side that ends at the bend goes on below it. */
 static TUILE_NOINLINE void bend(triangle_t *t) {
     side_start(t, t->bends_left, t->mid_x, t->mid_y, t->low_x, t->low_y, t->row_mid);
-    t->row_mid = t->row_end;
+    t->row_mid = t->head.row_end;
 }
 
 /* Both sides from the top down, and what is needed at the bend. mid is not below low. */
 TUILE_INLINE void sides_start(triangle_t *t, bool bends_left, int32_t x0, int32_t y0, const vertex_t *mid, const vertex_t *low, int32_t row) {
     const int32_t row_mid = edge_row(mid->y), row_end = edge_row(low->y);
     t->bends_left = bends_left;
-    t->row_mid = t->row_end = (int16_t)row_end;
+    t->row_mid = t->head.row_end = (int16_t)row_end;
     side_start(t, !bends_left, x0, y0, low->x, low->y, row);
     if (row >= row_mid) {
         side_start(t, bends_left, mid->x, mid->y, low->x, low->y, row);
@@ -106,8 +106,8 @@ TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, con
     const bool bends_left = v1->y < v2->y;
 
     triangle->row = (int16_t)row;
-    triangle->left = (int16_t)edge_row(least);
-    triangle->right = (int16_t)edge_row(most);
+    triangle->head.left = (int16_t)edge_row(least);
+    triangle->head.right = (int16_t)edge_row(most);
     triangle->is_short = most - least < SHORT_SIDE && (bends_left ? v2->y : v1->y) - v0->y < SHORT_SIDE;
     shade_start(triangle, v0, v1, v2, row, gouraud);
     if (bends_left) {
@@ -121,7 +121,7 @@ TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, con
  * of the tile's pixel for x = 0 of the window, which may be negative. */
 TUILE_INLINE void fill_rows(triangle_t *t, const raster_tile_t *tile, bool is_short, bool clamp, span_kind_t kind, bool last,
                             const uint16_t *ramp) {
-    const int32_t end = t->row_end < tile->bottom ? t->row_end : tile->bottom;
+    const int32_t end = t->head.row_end < tile->bottom ? t->head.row_end : tile->bottom;
     const int32_t stride = tile->stride_px, tile_left = tile->left, tile_right = tile->right;
     const uint64_t dx = t->dx, dy = t->dy;
     int32_t row = t->row, at = (row - tile->top) * stride - tile_left;
@@ -162,7 +162,7 @@ TUILE_INLINE void fill_rows(triangle_t *t, const raster_tile_t *tile, bool is_sh
             shade += dy;
             at += stride;
         } while (--rows);
-        if (row >= t->row_end) { break; }
+        if (row >= t->head.row_end) { break; }
         if (is_short) {
             t->side.brief.a = sa;
             t->side.brief.b = sb;
@@ -196,7 +196,7 @@ TUILE_NOINLINE void triangle_fill_any(triangle_t *t, const raster_tile_t *tile, 
 }
 
 void triangle_skip(triangle_t *t, int32_t target) {
-    if (target > t->row_end) { target = t->row_end; }
+    if (target > t->head.row_end) { target = t->head.row_end; }
     while (t->row < target) {
         const int32_t until = t->row_mid < target ? t->row_mid : target;
         for (; t->row < until; t->row++) {
@@ -209,6 +209,6 @@ void triangle_skip(triangle_t *t, int32_t target) {
             }
             t->shade += t->dy;
         }
-        if (t->row == t->row_mid && t->row < t->row_end) { bend(t); }
+        if (t->row == t->row_mid && t->row < t->head.row_end) { bend(t); }
     }
 }

@@ -7,10 +7,8 @@
 #include "span.h"
 
 typedef struct triangle {
-    uint16_t size_bytes; /* first in every state that is carried from tile row to tile row */
-    uint16_t record;     /* the face's record: it orders faces, and tells colour and vertices */
-    int16_t row, row_mid, row_end; /* next row to fill; row where the short side bends; end */
-    int16_t left, right;           /* pixels that it may touch: left ... right - 1 */
+    fill_head_t head;
+    int16_t row, row_mid;          /* next row to fill; row where the short side bends */
     bool bends_left;               /* the short side is the left one */
     bool is_short;                 /* all sides are: edge.h */
     uint64_t shade, dx, dy;        /* depth and light at the centre of pixel (0, row), and per pixel right and down: triangle.c */
@@ -38,7 +36,7 @@ void triangle_fill_any(triangle_t *triangle, const raster_tile_t *tile, span_kin
 
 /* ramp: SPAN_GOURAUD only. */
 TUILE_INLINE void triangle_fill(triangle_t *triangle, const raster_tile_t *tile, span_kind_t kind, bool last, const uint16_t *ramp) {
-    if (TUILE_UNLIKELY(!triangle->is_short || last || triangle->left < tile->left || triangle->right > tile->right || kind == SPAN_IDS)) {
+    if (TUILE_UNLIKELY(!triangle->is_short || last || triangle->head.left < tile->left || triangle->head.right > tile->right || kind == SPAN_IDS)) {
         triangle_fill_any(triangle, tile, kind, last, ramp);
     } else if (kind == SPAN_GOURAUD) {
         triangle_fill_gouraud(triangle, tile, ramp);

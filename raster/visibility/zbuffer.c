@@ -5,8 +5,8 @@
  *
  * One column (strips): a face is set up, drawn and, if it reaches beyond the strip, its state is written to the stream. The stream is
  * moved to the end of the free room first, so that the new one can grow where the old one was.
- * Several columns: all faces of the row enter the stream before the first tile is drawn; each tile draws from copies, the last one from
- * the stream itself, which moves the states on to the next row.
+ * Several columns: all faces of the row enter the stream before the first tile is drawn; each tile draws from copies, so that tiles may
+ * come in any order. Behind the last tile the states that reach further are moved on to the next row.
  */
 #include "../frame/frame.h"
 
@@ -14,9 +14,7 @@
 
 /* A state in the stream, seen as any of its kinds. */
 typedef union state {
-    struct {
-        uint16_t size_bytes, record;
-    } head;
+    fill_head_t head;
     triangle_t triangle;
     polygon_t polygon;
 } state_t;
@@ -40,13 +38,13 @@ TUILE_INLINE bool state_start(tuile_t *t, state_t *state, const record_t *record
     if (TUILE_LIKELY(is_triangle(record))) {
         const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
         triangle_start(&state->triangle, v0, v1, v2, row, t->span_kind == SPAN_GOURAUD);
-        state->triangle.size_bytes = (sizeof(triangle_t) + 7u) & ~7u;
+        state->head.size_bytes = (sizeof(triangle_t) + 7u) & ~7u;
         state->triangle.value = t->span_kind == SPAN_GOURAUD ? record->material : face_value(t, record);
     } else {
         const polygon_ring_t ring = record_ring(t, record);
         if (!polygon_start(&state->polygon, &ring, row)) { return false; }
         state->polygon.value = face_value(t, record);
-        state->polygon.size_bytes = (uint16_t)((state->polygon.size_bytes + 7u) & ~7u);
+        state->head.size_bytes = (uint16_t)((state->head.size_bytes + 7u) & ~7u);
     }
     state->head.record = (uint16_t)number;
     return true;
@@ -58,29 +56,26 @@ TUILE_INLINE bool state_fill(tuile_t *t, state_t *state, const record_t *record)
     if (TUILE_LIKELY(is_triangle(record))) {
         triangle_t *triangle = &state->triangle;
         triangle_fill(triangle, &t->tile, t->span_kind, last, t->span_kind == SPAN_GOURAUD ? frame_ramp(t, triangle->value) : NULL);
-        return triangle->row < triangle->row_end;
+        return triangle->row < triangle->head.row_end;
     }
     const polygon_ring_t ring = record_ring(t, record);
     polygon_fill(&state->polygon, &ring, &t->tile, t->span_kind == SPAN_IDS ? SPAN_IDS : SPAN_FLAT, last);
-    return state->polygon.row < state->polygon.row_end;
+    return state->polygon.row < state->head.row_end;
 }
 
 static bool state_skip(const tuile_t *t, state_t *state, int32_t row) {
     const record_t *record = frame_record(t, state->head.record);
     if (is_triangle(record)) {
         triangle_skip(&state->triangle, row);
-        return state->triangle.row < state->triangle.row_end;
+        return state->triangle.row < state->head.row_end;
     }
     const polygon_ring_t ring = record_ring(t, record);
     polygon_skip(&state->polygon, &ring, row);
-    return state->polygon.row < state->polygon.row_end;
+    return state->polygon.row < state->head.row_end;
 }
 
 static bool state_in_columns(const tuile_t *t, const state_t *state) {
-    const record_t *record = frame_record(t, state->head.record);
-    const int32_t left = is_triangle(record) ? state->triangle.left : state->polygon.left;
-    const int32_t right = is_triangle(record) ? state->triangle.right : state->polygon.right;
-    return left < t->tile.right && right > t->tile.left;
+    return state->head.left < t->tile.right && state->head.right > t->tile.left;
 }
 
 /* ---- lists of records ---- */
@@ -228,10 +223,14 @@ static void column_draw(tuile_t *t, int32_t top) {
             continue;
         }
         at += carried->head.size_bytes;
-        if (state_in_columns(t, carried)) {
+        if (!state_in_columns(t, carried)) { continue; }
+        const record_t *record = frame_record(t, carried->head.record);
+        if (is_triangle(record)) {
+            local.triangle = carried->triangle;
+        } else {
             memcpy(&local, carried, carried->head.size_bytes);
-            (void)state_fill(t, &local, frame_record(t, carried->head.record));
         }
+        (void)state_fill(t, &local, record);
     }
 }
 
@@ -242,7 +241,7 @@ static void row_advance(tuile_t *t, int32_t bottom) {
         state_t *state = (state_t *)(void *)at;
         const uint16_t size = state->head.size_bytes;
         at += size;
-        if (state_skip(t, state, bottom)) {
+        if (state->head.row_end > bottom && state_skip(t, state, bottom)) {
             if ((uint8_t *)state != out) { memmove(out, state, size); }
             out += size;
         }

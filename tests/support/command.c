@@ -161,8 +161,8 @@ bool command_failed_well(const command_result_t *result, const char *word, const
                       result->err_bytes > 8 && strlen(result->err) == result->err_bytes && (!word || strstr(result->err, word)) &&
                       (!other_word || strstr(result->err, other_word));
     if (!good) {
-        print_message("exit code %d, stdout '%.300s', stderr '%s'; wanted one line with '%s' and '%s'\n", result->code, result->out, result->err,
-                      word ? word : "", other_word ? other_word : "");
+        print_message("exit code %d, stdout '%.300s', stderr '%s'; wanted one line with '%s' and '%s'\n", result->code, result->out,
+                      result->err, word ? word : "", other_word ? other_word : "");
     }
     return good;
 }

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 typedef struct command_result {
-    int code; /* of exit; 256 + the signal that killed it */
+    int code;        /* of exit; 256 + the signal that killed it */
     char *out, *err; /* zero-terminated */
     size_t out_bytes, err_bytes;
 } command_result_t;

@@ -21,7 +21,8 @@ void model_box(mesh_t *mesh, const double low[3], const double high[3], uint32_t
 
 /* From -1 to 1, 6 quads as model_box. */
 void model_cube(mesh_t *mesh);
-/* Every face lit by its own normal, at each of its corners. Without it the compiler makes normals that are smooth within 60 degrees. */
+/* Every face lit by its own normal, at each of its corners. Without it the compiler makes normals that are smooth within 60
+ * degrees. */
 void model_flat_normals(mesh_t *mesh);
 /* About the y axis, radii 1 and 0.4; rings * sides quads, or twice as many triangles. Closed: positions are shared. */
 void model_torus(mesh_t *mesh, unsigned rings, unsigned sides, bool triangles);
@@ -29,8 +30,8 @@ void model_torus(mesh_t *mesh, unsigned rings, unsigned sides, bool triangles);
 void model_sphere(mesh_t *mesh, unsigned belts, unsigned sides);
 /* Boxes beside one another that grow by equal steps; they touch, so that there are faces back to back. */
 void model_staircase(mesh_t *mesh, unsigned steps);
-/* From -4 to 4 each way, floor y = -2, ceiling 2, seen from the inside; the wall at z = -4 is one ring of ten corners with a window in
- * it, and a box stands on the floor. Each wall has a colour of its own. */
+/* From -4 to 4 each way, floor y = -2, ceiling 2, seen from the inside; the wall at z = -4 is one ring of ten corners with a window
+ * in it, and a box stands on the floor. Each wall has a colour of its own. */
 void model_room(mesh_t *mesh);
 /* Eight triangles, red where x * y * z > 0, else blue. */
 void model_octahedron(mesh_t *mesh);
