@@ -122,7 +122,7 @@ static void face_fill_tile(const face_t *face, face_state_t *state, canvas_t *ca
     memset(colours, 0, sizeof colours[0] * (size_t)(stride * height));
     const raster_tile_t tile = {depth, kind == SPAN_IDS ? (void *)ids : colours, left, top, left + width, top + height, stride};
     if (face->as_triangle) {
-        if (state->triangle.row >= tile.bottom || state->triangle.row >= state->triangle.row_end) {
+        if (state->triangle.row >= tile.bottom || state->triangle.row >= state->triangle.head.row_end) {
             return;
         }
         triangle_fill(&state->triangle, &tile, kind, false, ramp);
