@@ -235,7 +235,7 @@ int main(int argc, char **argv) {
         case 1: model_cube(&mesh); break;
         case 2: model_room(&mesh); break;
         case 3: model_torus(&mesh, 8, 5, true); break;
-        default: star(&mesh, 100); break;
+        default: star(&mesh, 24); break;
         }
         bytes_t model = compile(&mesh);
         each_byte(&model, k == 0 && !CHECK_SANITIZED);
