@@ -4,36 +4,23 @@
 
 const char *tuile_hal_error_text(int error) {
     switch (error) {
-    case TUILE_HAL_OK:
-        return "no error";
-    case TUILE_HAL_ARGUMENT:
-        return "display: an argument is out of range";
-    case TUILE_HAL_STATE:
-        return "display: the call does not fit here (no window, window not filled, asleep, not initialised)";
-    case TUILE_HAL_UNSUPPORTED:
-        return "display: the bus or the panel cannot do this";
-    case TUILE_HAL_IO:
-        return "display: a transfer failed";
-    case TUILE_HAL_TIMEOUT:
-        return "display: a transfer or the tearing-effect line timed out";
-    case TUILE_HAL_PROTOCOL:
-        return "display: the panel refused what was sent";
-    case TUILE_HAL_GONE:
-        return "display: the device is gone; open it anew";
-    default:
-        return "display: unknown error";
+    case TUILE_HAL_OK: return "no error";
+    case TUILE_HAL_ARGUMENT: return "display: an argument is out of range";
+    case TUILE_HAL_STATE: return "display: the call does not fit here (no window, window not filled, asleep, not initialised)";
+    case TUILE_HAL_UNSUPPORTED: return "display: the bus or the panel cannot do this";
+    case TUILE_HAL_IO: return "display: a transfer failed";
+    case TUILE_HAL_TIMEOUT: return "display: a transfer or the tearing-effect line timed out";
+    case TUILE_HAL_PROTOCOL: return "display: the panel refused what was sent";
+    case TUILE_HAL_GONE: return "display: the device is gone; open it anew";
+    default: return "display: unknown error";
     }
 }
 
 /* Every result of the bus goes through here: the one place where an error begins to stick. A port's own codes are not let
  * through, lest they be taken for another layer's. */
 static int settle(tuile_display_t *display, int result) {
-    if (result >= 0) {
-        return TUILE_HAL_OK;
-    }
-    if (result > TUILE_HAL_ARGUMENT || result < TUILE_HAL_GONE) {
-        result = TUILE_HAL_IO;
-    }
+    if (result >= 0) { return TUILE_HAL_OK; }
+    if (result > TUILE_HAL_ARGUMENT || result < TUILE_HAL_GONE) { result = TUILE_HAL_IO; }
     display->error = result;
     return result;
 }
@@ -41,21 +28,15 @@ static int settle(tuile_display_t *display, int result) {
 static int quiet(tuile_display_t *display) {
     const tuile_bus_t *bus = display->config.bus;
 
-    if (!display->in_flight) {
-        return TUILE_HAL_OK;
-    }
+    if (!display->in_flight) { return TUILE_HAL_OK; }
     display->in_flight = false;
     return bus->wait ? settle(display, bus->wait(bus->context)) : TUILE_HAL_OK;
 }
 
 /* Before anything is sent. */
 static int ready(tuile_display_t *display) {
-    if (display->error) {
-        return display->error;
-    }
-    if (!display->config.bus || display->asleep) {
-        return TUILE_HAL_STATE;
-    }
+    if (display->error) { return display->error; }
+    if (!display->config.bus || display->asleep) { return TUILE_HAL_STATE; }
     return quiet(display);
 }
 
@@ -84,9 +65,7 @@ static int sequence(tuile_display_t *display, const tuile_sequence_t *steps) {
             return settle(display, TUILE_HAL_PROTOCOL); /* our table is damaged: nothing can be sent after it */
         }
         result = *at ? command(display, at + 1, count) : delay(display, (uint32_t)at[1] << 8 | at[2]);
-        if (result) {
-            return result;
-        }
+        if (result) { return result; }
         at += count + 1;
         left -= count + 1;
     }
@@ -106,9 +85,7 @@ static int set_pin(tuile_display_t *display, tuile_pin_t pin, uint8_t level) {
 static int set_brightness(tuile_display_t *display, uint8_t level) {
     uint8_t bytes[2] = {display->config.panel->brightness_command, level};
 
-    if (!has_pin(display, TUILE_PIN_BACKLIGHT) && bytes[0]) {
-        return command(display, bytes, 2);
-    }
+    if (!has_pin(display, TUILE_PIN_BACKLIGHT) && bytes[0]) { return command(display, bytes, 2); }
     return set_pin(display, TUILE_PIN_BACKLIGHT, level);
 }
 
@@ -126,9 +103,7 @@ static int reset(tuile_display_t *display) {
     } else if (byte) {
         /* The pause before it: power may have come up just now, or a fault have struck while the panel was waking, when
          * a software reset is forbidden (ILI9341, 8.2.2). */
-        if ((result = delay(display, panel->reset_wait_ms)) || (result = command(display, &byte, 1))) {
-            return result;
-        }
+        if ((result = delay(display, panel->reset_wait_ms)) || (result = command(display, &byte, 1))) { return result; }
     }
     return delay(display, panel->reset_wait_ms);
 }
@@ -153,15 +128,9 @@ static int start(tuile_display_t *display) {
         (result = sequence(display, &panel->init))) {
         return result;
     }
-    if (panel->rotation_command && (result = command(display, rotation, 2))) {
-        return result;
-    }
-    if (panel->format_command && (result = command(display, format, 2))) {
-        return result;
-    }
-    if (config->tearing_timeout_ms && (result = sequence(display, &panel->tearing))) {
-        return result;
-    }
+    if (panel->rotation_command && (result = command(display, rotation, 2))) { return result; }
+    if (panel->format_command && (result = command(display, format, 2))) { return result; }
+    if (config->tearing_timeout_ms && (result = sequence(display, &panel->tearing))) { return result; }
     return sequence(display, &panel->on);
 }
 
@@ -176,20 +145,12 @@ int tuile_display_init(tuile_display_t *display, const tuile_display_config_t *c
         return TUILE_HAL_ARGUMENT;
     }
     for (unsigned i = 0; i < panel->format_count; i++) {
-        if (panel->formats[i].wire == config->wire) {
-            format = &panel->formats[i];
-        }
+        if (panel->formats[i].wire == config->wire) { format = &panel->formats[i]; }
     }
-    if (!format || (config->tearing_timeout_ms && (!bus->tearing || !panel->tearing.size_bytes))) {
-        return TUILE_HAL_UNSUPPORTED;
-    }
+    if (!format || (config->tearing_timeout_ms && (!bus->tearing || !panel->tearing.size_bytes))) { return TUILE_HAL_UNSUPPORTED; }
     display->config = *config;
-    if (!config->command_clock_hz) {
-        display->config.command_clock_hz = panel->command_clock_hz;
-    }
-    if (!config->pixel_clock_hz) {
-        display->config.pixel_clock_hz = panel->pixel_clock_hz;
-    }
+    if (!config->command_clock_hz) { display->config.command_clock_hz = panel->command_clock_hz; }
+    if (!config->pixel_clock_hz) { display->config.pixel_clock_hz = panel->pixel_clock_hz; }
     display->view = tuile_panel_view(panel, config->rotation);
     display->width = display->view.width;
     display->height = display->view.height;
@@ -213,9 +174,7 @@ int tuile_display_window(tuile_display_t *display, uint32_t x, uint32_t y, uint3
     uint8_t code;
     int result = ready(display);
 
-    if (result) {
-        return result;
-    }
+    if (result) { return result; }
     if (width == 0 || height == 0 || x >= view->width || y >= view->height || width > view->width - x ||
         height > view->height - y || x % view->align_x || width % view->align_x || y % view->align_y || height % view->align_y) {
         return TUILE_HAL_ARGUMENT;
@@ -245,12 +204,8 @@ int tuile_display_write(tuile_display_t *display, const uint8_t *bytes, size_t s
     size_t chunk_bytes = size_bytes;
     int result = ready(display);
 
-    if (result) {
-        return result;
-    }
-    if (display->left_bytes == 0 && size_bytes > 0) {
-        return TUILE_HAL_STATE;
-    }
+    if (result) { return result; }
+    if (display->left_bytes == 0 && size_bytes > 0) { return TUILE_HAL_STATE; }
     if (!bytes || size_bytes > display->left_bytes || (uint32_t)size_bytes * 8u % display->bits_per_pixel) {
         return TUILE_HAL_ARGUMENT;
     }
@@ -261,9 +216,7 @@ int tuile_display_write(tuile_display_t *display, const uint8_t *bytes, size_t s
     while (size_bytes > 0) {
         size_t now = size_bytes < chunk_bytes ? size_bytes : chunk_bytes;
 
-        if ((result = quiet(display)) || (result = settle(display, bus->data(bus->context, bytes, now)))) {
-            return result;
-        }
+        if ((result = quiet(display)) || (result = settle(display, bus->data(bus->context, bytes, now)))) { return result; }
         display->in_flight = true;
         display->left_bytes -= (uint32_t)now;
         bytes += now;
@@ -277,16 +230,10 @@ int tuile_display_wait(tuile_display_t *display) { return ready(display); }
 int tuile_display_present(tuile_display_t *display) {
     int result = ready(display);
 
-    if (result) {
-        return result;
-    }
-    if (display->left_bytes) {
-        return TUILE_HAL_STATE;
-    }
+    if (result) { return result; }
+    if (display->left_bytes) { return TUILE_HAL_STATE; }
     display->in_frame = false;
-    if (!display->lit && (result = set_brightness(display, display->brightness))) {
-        return result;
-    }
+    if (!display->lit && (result = set_brightness(display, display->brightness))) { return result; }
     display->lit = true;
     display->refresh = false;
     return TUILE_HAL_OK;
@@ -295,12 +242,8 @@ int tuile_display_present(tuile_display_t *display) {
 int tuile_display_brightness(tuile_display_t *display, uint8_t level) {
     int result = ready(display);
 
-    if (result) {
-        return result;
-    }
-    if (!has_pin(display, TUILE_PIN_BACKLIGHT) && !display->config.panel->brightness_command) {
-        return TUILE_HAL_UNSUPPORTED;
-    }
+    if (result) { return result; }
+    if (!has_pin(display, TUILE_PIN_BACKLIGHT) && !display->config.panel->brightness_command) { return TUILE_HAL_UNSUPPORTED; }
     display->brightness = level;
     return display->lit ? set_brightness(display, level) : TUILE_HAL_OK;
 }
@@ -318,16 +261,10 @@ int tuile_display_sleep(tuile_display_t *display) {
 }
 
 int tuile_display_resume(tuile_display_t *display) {
-    if (!display->config.bus) {
-        return TUILE_HAL_STATE;
-    }
-    if (display->error == TUILE_HAL_GONE) {
-        return display->error;
-    }
+    if (!display->config.bus) { return TUILE_HAL_STATE; }
+    if (display->error == TUILE_HAL_GONE) { return display->error; }
     display->error = TUILE_HAL_OK;
-    if (quiet(display) == TUILE_HAL_GONE) {
-        return display->error;
-    }
+    if (quiet(display) == TUILE_HAL_GONE) { return display->error; }
     display->error = TUILE_HAL_OK; /* what the old transfer came to no longer matters */
     return start(display);
 }

@@ -27,7 +27,9 @@ TUILE_INLINE unsigned fixed_clz32(uint32_t x) {
     return sizeof(unsigned) == 4 ? (unsigned)__builtin_clz((unsigned)x) : (unsigned)__builtin_clzl((unsigned long)x);
 #else
     unsigned n = 0;
-    while (!(x & 0x80000000u)) { x <<= 1, n++; }
+    while (!(x & 0x80000000u)) {
+        x <<= 1, n++;
+    }
     return n;
 #endif
 }
@@ -58,14 +60,18 @@ TUILE_INLINE int32_t fixed_mul_high(int32_t a, uint32_t b) { return (int32_t)(((
 TUILE_INLINE int64_t fixed_mul_shift(int64_t a, int32_t b, unsigned shift) {
     const int64_t high = (a >> 32) * b;
     const int64_t low = (int64_t)(uint32_t)a * b;
-    if (shift <= 32) { return (int64_t)(((uint64_t)high << (32 - shift)) + (uint64_t)(low >> shift)); } /* modulo 2^64: the sum fits */
+    if (shift <= 32) {
+        return (int64_t)(((uint64_t)high << (32 - shift)) + (uint64_t)(low >> shift));
+    } /* modulo 2^64: the sum fits */
     return (high + (low >> 32)) >> (shift - 32);
 }
 
 /* floor(sqrt(x)). */
 static inline uint32_t fixed_sqrt64(uint64_t x) {
     uint64_t root = 0, bit = (uint64_t)1 << 62;
-    while (bit > x) { bit >>= 2; }
+    while (bit > x) {
+        bit >>= 2;
+    }
     for (; bit; bit >>= 2) {
         if (x >= root + bit) {
             x -= root + bit;
@@ -81,10 +87,10 @@ static inline uint32_t fixed_sqrt64(uint64_t x) {
  * A 17-bit quotient from one 32-bit division, then one Newton step: with r0 = r (1 + d), |d| < 2^-15, the step leaves d^2,
  * that is 2^-30, besides the truncations of its own products. */
 TUILE_INLINE uint32_t fixed_reciprocal(uint32_t w) {
-    const uint32_t r0 = (0xffffffffu / (w >> 16)) << 14;                 /* <= 2^17 * 2^14 - 2^14, below 2^31 but for w = 2^31 */
-    const uint32_t product = (uint32_t)(((uint64_t)w * r0) >> 32);       /* 2^30 (1 + d) */
-    const int32_t error = (int32_t)(0x40000000u - product);              /* |error| <= 2^30 * 2^-15 + 1 */
-    return r0 + (uint32_t)(((int32_t)(r0 >> 16) * error) >> 14);         /* |product| <= 2^15 * (2^15 + 1) */
+    const uint32_t r0 = (0xffffffffu / (w >> 16)) << 14;           /* <= 2^17 * 2^14 - 2^14, below 2^31 but for w = 2^31 */
+    const uint32_t product = (uint32_t)(((uint64_t)w * r0) >> 32); /* 2^30 (1 + d) */
+    const int32_t error = (int32_t)(0x40000000u - product);        /* |error| <= 2^30 * 2^-15 + 1 */
+    return r0 + (uint32_t)(((int32_t)(r0 >> 16) * error) >> 14);   /* |product| <= 2^15 * (2^15 + 1) */
 }
 
 #endif

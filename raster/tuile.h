@@ -65,12 +65,12 @@ typedef struct tuile_model {
     const uint8_t *bytes;
     uint32_t size_bytes;
     uint32_t vertex_count, face_count, cluster_count, material_count;
-    uint32_t source_face_count;     /* faces in the order in which the importer delivered them */
-    uint16_t cluster_vertices_max;  /* vertices of the largest cluster */
-    uint16_t corners_max;           /* corners of the face with most */
-    tuile_scale_t step;             /* model units per quantisation step */
-    int32_t offset[3];              /* in steps: position = step * (offset + stored int16) */
-    int16_t centre[3];              /* bounding sphere, in steps relative to offset */
+    uint32_t source_face_count;    /* faces in the order in which the importer delivered them */
+    uint16_t cluster_vertices_max; /* vertices of the largest cluster */
+    uint16_t corners_max;          /* corners of the face with most */
+    tuile_scale_t step;            /* model units per quantisation step */
+    int32_t offset[3];             /* in steps: position = step * (offset + stored int16) */
+    int16_t centre[3];             /* bounding sphere, in steps relative to offset */
     uint16_t radius;
     uint16_t flags;
     const uint8_t *positions, *normals, *clusters, *faces, *face_normals, *materials, *source;
@@ -138,7 +138,7 @@ typedef struct tuile_scene {
     uint16_t instance_count;
     const tuile_light_t *lights;
     uint8_t light_count;
-    uint8_t ambient; /* 255 = 1.0 */
+    uint8_t ambient;       /* 255 = 1.0 */
     uint8_t background[3]; /* red, green, blue */
     tuile_camera_t camera;
 } tuile_scene_t;
@@ -189,16 +189,17 @@ typedef struct tuile_config {
 #define TUILE_ALIGN64(n) (((n) + 63u) & ~(size_t)63u)
 #define TUILE_STATE_BYTES 1024u /* the renderer itself: an upper bound, asserted */
 #define TUILE_CLIP_BYTES 512u   /* room for one clipped face of up to four corners */
-/* The same for more corners: to be added to the sizes below. A plane may turn n vertices of a face that is not convex into 3 n / 2, and
- * there are six: n * 1.5^6 vertices of 8 bytes. */
+/* The same for more corners: to be added to the sizes below. A plane may turn n vertices of a face that is not convex into 3 n / 2,
+ * and there are six: n * 1.5^6 vertices of 8 bytes. */
 #define TUILE_CORNERS_BYTES(corners) ((corners) > 4u ? 96u * (size_t)(corners) : 0u)
 /* State, tile buffers, their depth, one shading ramp and the table of tile rows. */
-#define TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers)                                                              \
-    (TUILE_STATE_BYTES + TUILE_ALIGN64(2u * (tile_w) * (tile_h)) +                                                              \
-     (buffers)*TUILE_ALIGN64((size_t)TUILE_FORMAT_BYTES(format) * (tile_w) * (tile_h)) + 128u +                                  \
+#define TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers)                              \
+    (TUILE_STATE_BYTES + TUILE_ALIGN64(2u * (tile_w) * (tile_h)) +                              \
+     (buffers)*TUILE_ALIGN64((size_t)TUILE_FORMAT_BYTES(format) * (tile_w) * (tile_h)) + 128u + \
      TUILE_ALIGN8(2u * (((height) + (tile_h)-1u) / (tile_h))))
-/* The least block that draws any scene whose clusters have at most cluster_vertices vertices and whose faces at most four corners. */
-#define TUILE_LEAST_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices)                                            \
+/* The least block that draws any scene whose clusters have at most cluster_vertices vertices and whose faces at most four corners.
+ */
+#define TUILE_LEAST_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices) \
     (TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers) + 8u * (cluster_vertices) + TUILE_CLIP_BYTES)
 
 typedef struct tuile tuile_t;
@@ -265,10 +266,10 @@ typedef struct tuile_hit {
     q16_16_t point[3]; /* on the plane of the face, in steps of the model relative to its offset, times 65536 */
 } tuile_hit_t;
 
-/* The face seen at pixel (x, y) of the window that config describes, and the point of it there: where the ray through the pixel's centre
- * meets the plane of the face (saturated where the face is seen from its edge). block: scratch, 8-byte aligned, of at least
- * TUILE_PICK_BYTES. Only config's width, height, tie, cluster_vertices and corners matter. Returns 1 and the hit, 0 where the background is seen,
- * or an error. */
+/* The face seen at pixel (x, y) of the window that config describes, and the point of it there: where the ray through the pixel's
+ * centre meets the plane of the face (saturated where the face is seen from its edge). block: scratch, 8-byte aligned, of at least
+ * TUILE_PICK_BYTES. Only config's width, height, tie, cluster_vertices and corners matter. Returns 1 and the hit, 0 where the
+ * background is seen, or an error. */
 #define TUILE_PICK_BYTES(height, cluster_vertices) TUILE_LEAST_BYTES(height, 1u, 1u, TUILE_FACE_IDS, 1u, cluster_vertices)
 int tuile_pick(const tuile_scene_t *scene, const tuile_config_t *config, uint16_t x, uint16_t y, void *block, size_t size_bytes,
                tuile_hit_t *hit);

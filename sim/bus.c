@@ -16,9 +16,7 @@ static uint64_t wire_time(uint64_t size_bytes, uint32_t clock_hz) {
 }
 
 static int misuse(sim_bus_t *bus, const char *what) {
-    if (!bus->error.text[0]) {
-        sim_fail(&bus->error, "simulated bus: %s", what);
-    }
+    if (!bus->error.text[0]) { sim_fail(&bus->error, "simulated bus: %s", what); }
     return TUILE_HAL_STATE;
 }
 
@@ -32,9 +30,7 @@ static int fate(sim_bus_t *bus, uint8_t *parts) {
         *parts = 0;
         return TUILE_HAL_GONE;
     }
-    if (bus->transfers != bus->config.fail_transfer) {
-        return TUILE_HAL_OK;
-    }
+    if (bus->transfers != bus->config.fail_transfer) { return TUILE_HAL_OK; }
     *parts = bus->config.fail_parts > 2 ? 2 : bus->config.fail_parts;
     bus->gone = code == TUILE_HAL_GONE;
     return code;
@@ -42,9 +38,7 @@ static int fate(sim_bus_t *bus, uint8_t *parts) {
 
 static int deliver(sim_bus_t *bus, bool data, const uint8_t *bytes, size_t size_bytes, uint32_t clock_hz, uint64_t at_ns) {
     if (size_bytes > 0 && bus->chip->receive(bus->chip, data, bytes, size_bytes, clock_hz, at_ns)) {
-        if (!bus->error.text[0]) {
-            bus->error = bus->chip->fault;
-        }
+        if (!bus->error.text[0]) { bus->error = bus->chip->fault; }
         return TUILE_HAL_PROTOCOL;
     }
     return TUILE_HAL_OK;
@@ -53,9 +47,7 @@ static int deliver(sim_bus_t *bus, bool data, const uint8_t *bytes, size_t size_
 static int bus_clocks(void *context, uint32_t command_clock_hz, uint32_t pixel_clock_hz) {
     sim_bus_t *bus = context;
 
-    if (command_clock_hz == 0 || pixel_clock_hz == 0) {
-        return misuse(bus, "a clock of 0 Hz");
-    }
+    if (command_clock_hz == 0 || pixel_clock_hz == 0) { return misuse(bus, "a clock of 0 Hz"); }
     bus->asked_command_hz = command_clock_hz;
     bus->asked_pixel_hz = pixel_clock_hz;
     return TUILE_HAL_OK;
@@ -68,9 +60,7 @@ static int bus_command(void *context, const uint8_t *bytes, size_t low_count, si
     size_t arrive, low;
     int result, refused;
 
-    if (bus->flying) {
-        return misuse(bus, "a command while data are in flight");
-    }
+    if (bus->flying) { return misuse(bus, "a command while data are in flight"); }
     if (low_count == 0 || low_count > size_bytes || size_bytes > 64) {
         return misuse(bus, "a command without a command byte, or of more than 64 bytes");
     }
@@ -91,9 +81,7 @@ static int land(sim_bus_t *bus) {
     const uint8_t *bytes = bus->flying;
     int result = bus->flying_result, refused;
 
-    if (!bytes) {
-        return TUILE_HAL_OK;
-    }
+    if (!bytes) { return TUILE_HAL_OK; }
     bus->flying = NULL;
     if (bus->now_ns < bus->flying_end_ns) {
         bus->counts.idle_ns += bus->flying_end_ns - bus->now_ns;
@@ -107,12 +95,8 @@ static int bus_data(void *context, const uint8_t *bytes, size_t size_bytes) {
     sim_bus_t *bus = context;
     uint64_t wire_ns = wire_time(size_bytes, pixel_clock(bus));
 
-    if (bus->flying) {
-        return misuse(bus, "data while data are in flight");
-    }
-    if (!bytes || size_bytes == 0) {
-        return misuse(bus, "data of no bytes");
-    }
+    if (bus->flying) { return misuse(bus, "data while data are in flight"); }
+    if (!bytes || size_bytes == 0) { return misuse(bus, "data of no bytes"); }
     if (bus->config.max_chunk_bytes && size_bytes > bus->config.max_chunk_bytes) {
         return misuse(bus, "a chunk larger than the bus takes");
     }
@@ -136,9 +120,7 @@ static int bus_read(void *context, uint8_t command, uint8_t *bytes, size_t size_
     uint8_t parts;
     int result;
 
-    if (bus->flying) {
-        return misuse(bus, "a read while data are in flight");
-    }
+    if (bus->flying) { return misuse(bus, "a read while data are in flight"); }
     result = fate(bus, &parts);
     bus->counts.commands++;
     bus->counts.command_bytes += size_bytes + 1;
@@ -164,9 +146,7 @@ static int bus_delay_ms(void *context, uint32_t delay_ms) {
 static int bus_pin(void *context, tuile_pin_t pin, uint8_t level) {
     sim_bus_t *bus = context;
 
-    if (!(bus->bus.pins & TUILE_PIN_BIT(pin))) {
-        return misuse(bus, "a pin that is not there");
-    }
+    if (!(bus->bus.pins & TUILE_PIN_BIT(pin))) { return misuse(bus, "a pin that is not there"); }
     if (pin == TUILE_PIN_BACKLIGHT) {
         bus->backlight = level;
     } else {
@@ -179,9 +159,7 @@ static int bus_tearing(void *context, uint32_t timeout_ms) {
     sim_bus_t *bus = context;
     uint64_t period_ns = UINT64_C(1000000000) / bus->config.refresh_hz, blank_ns = (bus->now_ns / period_ns + 1) * period_ns;
 
-    if (!bus->chip->tearing || blank_ns - bus->now_ns > timeout_ms * UINT64_C(1000000)) {
-        return TUILE_HAL_TIMEOUT;
-    }
+    if (!bus->chip->tearing || blank_ns - bus->now_ns > timeout_ms * UINT64_C(1000000)) { return TUILE_HAL_TIMEOUT; }
     bus->counts.idle_ns += blank_ns - bus->now_ns;
     bus->now_ns = blank_ns;
     return TUILE_HAL_OK;
@@ -189,9 +167,7 @@ static int bus_tearing(void *context, uint32_t timeout_ms) {
 
 void sim_bus_open(sim_bus_t *bus, const sim_bus_config_t *config, sim_chip_t *chip) {
     *bus = (sim_bus_t){.chip = chip, .asked_command_hz = CLOCK_DEFAULT_HZ, .asked_pixel_hz = CLOCK_DEFAULT_HZ};
-    if (config) {
-        bus->config = *config;
-    }
+    if (config) { bus->config = *config; }
     bus->backlight = bus->config.no_backlight_pin ? 255 : 0;
     bus->bus = (tuile_bus_t){
         .context = bus,
@@ -219,12 +195,8 @@ int sim_bus_picture(const sim_bus_t *bus, unsigned rotation, sim_picture_t *out,
     int result;
 
     *out = (sim_picture_t){0};
-    if (bus->chip->glass(bus->chip, &glass, error)) {
-        return -1;
-    }
-    if (bus->backlight == 0) {
-        memset(glass.rgb, 0, (size_t)glass.width * glass.height * 3u);
-    }
+    if (bus->chip->glass(bus->chip, &glass, error)) { return -1; }
+    if (bus->backlight == 0) { memset(glass.rgb, 0, (size_t)glass.width * glass.height * 3u); }
     result = sim_picture_turn(&glass, -(int)(rotation & 3u), out, error);
     sim_picture_free(&glass);
     return result;

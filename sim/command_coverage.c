@@ -12,7 +12,8 @@ static const char usage[] =
     "Usage: tuile coverage W H < FILE\n"
     "\n"
     "Each line of FILE is a polygon, x0 y0 x1 y1 x2 y2 ... in 1/16 pixel (whole numbers, at most 32767 * 16 either way; y down,\n"
-    "pixels sampled at their centres, even-odd). Prints `polygon K` and then `y x0 x1` for each run of covered pixels in the W x H\n"
+    "pixels sampled at their centres, even-odd). Prints `polygon K` and then `y x0 x1` for each run of covered pixels in the W x "
+    "H\n"
     "window, x1 included.\n";
 
 static void print_span(void *context, int32_t row, int32_t first, int32_t end) {

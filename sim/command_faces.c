@@ -8,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char usage[] =
-    "Usage: tuile faces [--method zbuffer] [--tile WxH] [--memory 16K] SCENE\n"
-    "\n"
-    "Prints the ID of the face seen at each pixel, one row of the picture a line; 0 is the background. SCENE is a text scene, - for\n"
-    "standard input.\n";
+static const char usage[] = "Usage: tuile faces [--method zbuffer] [--tile WxH] [--memory 16K] SCENE\n"
+                            "\n"
+                            "Prints the ID of the face seen at each pixel, one row of the picture a line; 0 is the background. "
+                            "SCENE is a text scene, - for\n"
+                            "standard input.\n";
 
 typedef struct faces {
     scene_text_t scene;
@@ -44,7 +44,9 @@ static int draw(faces_t *faces, const tuile_config_t *wanted, size_t memory_byte
     }
     if (scene_text_camera(&faces->scene, &quantisation, &view, &error) != 0) { return command_fail("%s", error.text); }
     if (faces->mesh.face_count > 0) {
-        if (mesh_compile(&faces->mesh, &options, &faces->bytes, &size_bytes, &report, &error) != 0) { return command_fail("%s", error.text); }
+        if (mesh_compile(&faces->mesh, &options, &faces->bytes, &size_bytes, &report, &error) != 0) {
+            return command_fail("%s", error.text);
+        }
         result = tuile_model_open(&model, faces->bytes, size_bytes);
         if (result) { return command_fail("internal: %s", tuile_error_text(result)); }
         scene.instance_count = 1;
@@ -62,11 +64,14 @@ static int draw(faces_t *faces, const tuile_config_t *wanted, size_t memory_byte
     faces->ids = calloc((size_t)config.width * config.height, sizeof *faces->ids);
     if (!faces->block || !faces->ids) { return command_fail("out of memory"); }
     result = tuile_init(&renderer, &config, faces->block, memory_bytes, &least);
-    if (result == TUILE_ERROR_MEMORY) { return command_fail("--memory: %zu bytes are too few, this scene wants %zu", memory_bytes, least); }
+    if (result == TUILE_ERROR_MEMORY) {
+        return command_fail("--memory: %zu bytes are too few, this scene wants %zu", memory_bytes, least);
+    }
     if (result == 0) { result = tuile_begin(renderer, &scene); }
     while (result == 0 && (result = tuile_next(renderer, &tile)) == 1) {
         for (unsigned y = 0; y < tile.height; y++) {
-            memcpy(faces->ids + (size_t)(tile.y + y) * config.width + tile.x, tile.bytes + 4u * (size_t)y * tile.width, 4u * (size_t)tile.width);
+            memcpy(faces->ids + (size_t)(tile.y + y) * config.width + tile.x, tile.bytes + 4u * (size_t)y * tile.width,
+                   4u * (size_t)tile.width);
         }
         result = 0;
     }

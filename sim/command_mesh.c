@@ -18,8 +18,8 @@ static const char usage[] =
     "  --max-faces N    simplify to at most N triangles\n";
 
 static void mesh_report_print(const mesh_report_t *report) {
-    (void)printf("vertices %zu, faces %zu (%zu n-gons), clusters %zu, %zu bytes\n", report->vertices, report->faces, report->polygons,
-                 report->clusters, report->size_bytes);
+    (void)printf("vertices %zu, faces %zu (%zu n-gons), clusters %zu, %zu bytes\n", report->vertices, report->faces,
+                 report->polygons, report->clusters, report->size_bytes);
     (void)printf("non-planar faces split %zu, degenerate faces skipped %zu, largest quantisation error %.3g model units\n",
                  report->non_planar, report->skipped, report->quantisation_error);
 }

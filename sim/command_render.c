@@ -42,7 +42,8 @@ static const char usage[] =
     "  --background RRGGBB\n"
     "  --out frame-%03d.png     pictures of the panel; PPM when the name ends so\n"
     "  --sheet FILE.png         all frames on one picture\n"
-    "  --ids FILE               the visible face of each pixel, as rows of text: the importer's number of the face + 1, 0 = background\n"
+    "  --ids FILE               the visible face of each pixel, as rows of text: the importer's number of the face + 1, 0 = "
+    "background\n"
     "  --pick I,J               prints the face seen at a pixel and the point on it in model units\n"
     "  --hash                   prints a hash of the panel's memory for each frame\n"
     "  --report FILE.json       every figure of every frame\n";
@@ -100,7 +101,9 @@ static bool check_pattern(const char *option, const char *name, long frames) {
         return false;
     }
     const char *at = percent + 1;
-    while (*at >= '0' && *at <= '9') { at++; }
+    while (*at >= '0' && *at <= '9') {
+        at++;
+    }
     if (*at != 'd' || at - percent > 3 || strchr(at, '%')) {
         (void)command_fail("%s %s: only one number, like %%d or %%03d, may stand in the name", option, name);
         return false;
@@ -110,7 +113,9 @@ static bool check_pattern(const char *option, const char *name, long frames) {
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
-static void frame_name(char *name, size_t size, const char *pattern, unsigned frame) { (void)snprintf(name, size, pattern, (int)frame); }
+static void frame_name(char *name, size_t size, const char *pattern, unsigned frame) {
+    (void)snprintf(name, size, pattern, (int)frame);
+}
 #pragma GCC diagnostic pop
 
 static bool parse_clock(options_t *options, size_t *hz) {
@@ -144,7 +149,9 @@ static int parse(render_t *r, int count, char **arguments) {
     while ((argument = options_next(&options)) != NULL) {
         const double far = 1e12;
         if (!options.name) {
-            if (r->model_path) { return command_fail("render: one model at a time, but got %s and %s", r->model_path, argument), EXIT_USAGE; }
+            if (r->model_path) {
+                return command_fail("render: one model at a time, but got %s and %s", r->model_path, argument), EXIT_USAGE;
+            }
             r->model_path = argument;
         } else if (strcmp(argument, "--panel") == 0) {
             (void)options_choice(&options, &choice, panels);
@@ -227,11 +234,13 @@ static int parse(render_t *r, int count, char **arguments) {
 static size_t one_pass_bytes(const tuile_model_t *model, const tuile_config_t *config) {
     const size_t tile_width = config->tile_width ? config->tile_width : config->width;
     const size_t tile_height = config->tile_height ? config->tile_height : 24;
-    return TUILE_LEAST_BYTES((size_t)config->height, tile_width, tile_height, config->format, 2u, 255u) + 16u * (size_t)model->vertex_count +
-           130u * (size_t)model->material_count + TUILE_CORNERS_BYTES(model->corners_max) + 24u * (size_t)model->face_count + 65536u;
+    return TUILE_LEAST_BYTES((size_t)config->height, tile_width, tile_height, config->format, 2u, 255u) +
+           16u * (size_t)model->vertex_count + 130u * (size_t)model->material_count + TUILE_CORNERS_BYTES(model->corners_max) +
+           24u * (size_t)model->face_count + 65536u;
 }
 
-static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t *config, const tuile_model_t *model, size_t *memory_bytes) {
+static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t *config, const tuile_model_t *model,
+                         size_t *memory_bytes) {
     size_t wanted = 0;
     tuile_config_t c = *config;
     c.cluster_vertices = model->cluster_vertices_max;
@@ -253,7 +262,9 @@ static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t 
 static int set_up(render_t *r) {
     size_t size_bytes;
     mesh_report_t report;
-    if (mesh_load(r->model_path, (size_t)r->max_faces, &r->bytes, &size_bytes, &report, &r->error) != 0) { return command_fail("%s", r->error.text); }
+    if (mesh_load(r->model_path, (size_t)r->max_faces, &r->bytes, &size_bytes, &report, &r->error) != 0) {
+        return command_fail("%s", r->error.text);
+    }
     int result = tuile_model_open(&r->model, r->bytes, size_bytes);
     if (result) { return command_fail("%s: %s", r->model_path, tuile_error_text(result)); }
 
@@ -263,7 +274,9 @@ static int set_up(render_t *r) {
     sim_bus_open(&r->bus, &bus, r->chip);
     const tuile_display_config_t display = {.bus = &r->bus.bus, .panel = &tuile_ili9341, .rotation = (uint8_t)r->rotate};
     result = tuile_display_init(&r->display, &display);
-    if (result) { return command_fail("panel: %s%s%s", tuile_hal_error_text(result), r->bus.error.text[0] ? ": " : "", r->bus.error.text); }
+    if (result) {
+        return command_fail("panel: %s%s%s", tuile_hal_error_text(result), r->bus.error.text[0] ? ": " : "", r->bus.error.text);
+    }
 
     r->config.width = r->display.width;
     r->config.height = r->display.height;
@@ -281,7 +294,9 @@ static int set_up(render_t *r) {
 /* FNV-1a, 64 bits, over the panel's memory as it lies: rows of red, green, blue at rotation 0. */
 static uint64_t panel_hash(const sim_picture_t *glass) {
     uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < (size_t)glass->width * glass->height * 3; i++) { hash = (hash ^ glass->rgb[i]) * 0x100000001b3u; }
+    for (size_t i = 0; i < (size_t)glass->width * glass->height * 3; i++) {
+        hash = (hash ^ glass->rgb[i]) * 0x100000001b3u;
+    }
     return hash;
 }
 
@@ -328,10 +343,12 @@ static int print_pick(render_t *r) {
     tuile_config_t config = r->config;
     config.cluster_vertices = r->model.cluster_vertices_max;
     config.corners = r->model.corners_max;
-    const size_t size = TUILE_PICK_BYTES((size_t)config.height, (size_t)config.cluster_vertices) + TUILE_CORNERS_BYTES(config.corners);
+    const size_t size =
+        TUILE_PICK_BYTES((size_t)config.height, (size_t)config.cluster_vertices) + TUILE_CORNERS_BYTES(config.corners);
     if (r->pick_at[0] != floor(r->pick_at[0]) || r->pick_at[1] != floor(r->pick_at[1]) || r->pick_at[0] >= config.width ||
         r->pick_at[1] >= config.height) {
-        return command_fail("--pick %g,%g: wants whole pixels within %ux%u", r->pick_at[0], r->pick_at[1], config.width, config.height);
+        return command_fail("--pick %g,%g: wants whole pixels within %ux%u", r->pick_at[0], r->pick_at[1], config.width,
+                            config.height);
     }
     void *block = malloc(size);
     if (!block) { return command_fail("out of memory"); }
@@ -344,9 +361,11 @@ static int print_pick(render_t *r) {
     }
     const double step = ldexp((double)r->model.step.mantissa, r->model.step.exponent);
     double point[3];
-    for (int i = 0; i < 3; i++) { point[i] = step * (r->model.offset[i] + hit.point[i] / 65536.0); }
-    (void)printf("pick %g,%g: face %u at %.6g,%.6g,%.6g\n", r->pick_at[0], r->pick_at[1], tuile_model_source_face(&r->model, hit.face) + 1,
-                 point[0], point[1], point[2]);
+    for (int i = 0; i < 3; i++) {
+        point[i] = step * (r->model.offset[i] + hit.point[i] / 65536.0);
+    }
+    (void)printf("pick %g,%g: face %u at %.6g,%.6g,%.6g\n", r->pick_at[0], r->pick_at[1],
+                 tuile_model_source_face(&r->model, hit.face) + 1, point[0], point[1], point[2]);
     return 0;
 }
 
@@ -354,20 +373,25 @@ static void report_frame(const render_t *r, unsigned frame, const char *hash) {
     const tuile_stats_t *s = &r->stats;
     const tuile_config_t *c = tuile_config(r->renderer);
     FILE *f = r->report_file.file;
-    (void)fprintf(f, "%s\n    {\"frame\": %u, \"hash\": \"%s\", \"width\": %u, \"height\": %u, \"tile_width\": %u, \"tile_height\": %u,\n", frame ? "," : "",
-                  frame, hash, c->width, c->height, c->tile_width, c->tile_height);
-    (void)fprintf(f, "     \"faces\": %u, \"clusters\": %u, \"clusters_outside\": %u, \"clusters_facing_away\": %u, \"vertices\": %u,\n", s->faces,
-                  s->clusters, s->clusters_outside, s->clusters_facing_away, s->vertices);
+    (void)fprintf(
+        f, "%s\n    {\"frame\": %u, \"hash\": \"%s\", \"width\": %u, \"height\": %u, \"tile_width\": %u, \"tile_height\": %u,\n",
+        frame ? "," : "", frame, hash, c->width, c->height, c->tile_width, c->tile_height);
+    (void)fprintf(
+        f, "     \"faces\": %u, \"clusters\": %u, \"clusters_outside\": %u, \"clusters_facing_away\": %u, \"vertices\": %u,\n",
+        s->faces, s->clusters, s->clusters_outside, s->clusters_facing_away, s->vertices);
+    (void)fprintf(
+        f,
+        "     \"faces_tested\": %u, \"faces_back\": %u, \"faces_degenerate\": %u, \"faces_outside\": %u, \"faces_clipped\": %u,\n"
+        "     \"faces_clipped_away\": %u, \"faces_binned\": %u, \"faces_setup\": %u, \"faces_resumed\": %u,\n",
+        s->faces_tested, s->faces_back, s->faces_degenerate, s->faces_outside, s->faces_clipped, s->faces_clipped_away,
+        s->faces_binned, s->faces_setup, s->faces_resumed);
     (void)fprintf(f,
-                  "     \"faces_tested\": %u, \"faces_back\": %u, \"faces_degenerate\": %u, \"faces_outside\": %u, \"faces_clipped\": %u,\n"
-                  "     \"faces_clipped_away\": %u, \"faces_binned\": %u, \"faces_setup\": %u, \"faces_resumed\": %u,\n",
-                  s->faces_tested, s->faces_back, s->faces_degenerate, s->faces_outside, s->faces_clipped, s->faces_clipped_away,
-                  s->faces_binned, s->faces_setup, s->faces_resumed);
-    (void)fprintf(f,
-                  "     \"passes\": %u, \"tiles\": %u, \"tiles_immediate\": %u, \"size_bytes\": %u, \"least_bytes\": %u, \"peak_bytes\": %u,\n"
+                  "     \"passes\": %u, \"tiles\": %u, \"tiles_immediate\": %u, \"size_bytes\": %u, \"least_bytes\": %u, "
+                  "\"peak_bytes\": %u,\n"
                   "     \"wire_bytes\": %llu, \"wire_ns\": %llu, \"fps_bus\": %.2f}",
-                  s->passes, s->tiles, s->tiles_immediate, s->size_bytes, s->least_bytes, s->peak_bytes, (unsigned long long)r->wire_bytes,
-                  (unsigned long long)r->frame_ns, r->frame_ns ? 1e9 / (double)r->frame_ns : 0.0);
+                  s->passes, s->tiles, s->tiles_immediate, s->size_bytes, s->least_bytes, s->peak_bytes,
+                  (unsigned long long)r->wire_bytes, (unsigned long long)r->frame_ns,
+                  r->frame_ns ? 1e9 / (double)r->frame_ns : 0.0);
 }
 
 static int draw_frame(render_t *r, unsigned frame) {
@@ -408,7 +432,9 @@ static void progress(unsigned done, unsigned of) {
     char bar[37];
     if (!isatty(STDERR_FILENO)) { return; }
     const unsigned filled = done * 36 / of;
-    for (unsigned i = 0; i < 36; i++) { bar[i] = i < filled ? '#' : '.'; }
+    for (unsigned i = 0; i < 36; i++) {
+        bar[i] = i < filled ? '#' : '.';
+    }
     bar[36] = '\0';
     (void)fprintf(stderr, "\r[%s] %u/%u%s", bar, done, of, done == of ? "\n" : "");
 }
@@ -444,7 +470,8 @@ static int run(render_t *r) {
     }
     if (code) { return code; }
     if (r->out || r->sheet || r->report) {
-        (void)printf("%s: %u faces; memory given %u, least %u, used %u bytes, %u pass%s; %u tiles, %llu bytes on the wire; the bus allows %.1f fps\n",
+        (void)printf("%s: %u faces; memory given %u, least %u, used %u bytes, %u pass%s; %u tiles, %llu bytes on the wire; the bus "
+                     "allows %.1f fps\n",
                      r->model_path, r->stats.faces, r->stats.size_bytes, r->stats.least_bytes, r->peak_bytes, r->passes_max,
                      r->passes_max == 1 ? "" : "es", r->stats.tiles, (unsigned long long)r->wire_bytes, 1e9 / (double)r->frame_ns);
     }
@@ -459,7 +486,9 @@ int command_render(int count, char **arguments) {
     if (code == 0) {
         code = run(&r);
         if (r.pictures) {
-            for (long i = 0; i < r.frames; i++) { sim_picture_free(&r.pictures[i]); }
+            for (long i = 0; i < r.frames; i++) {
+                sim_picture_free(&r.pictures[i]);
+            }
         }
         free(r.pictures);
         if (r.chip) { r.chip->destroy(r.chip); }

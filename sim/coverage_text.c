@@ -17,7 +17,9 @@ void coverage_text_close(coverage_text_t *text) {
 /* The next character that is not a blank within the line. */
 static int skip_blanks(FILE *file) {
     int c = getc(file);
-    while (c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f') { c = getc(file); }
+    while (c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f') {
+        c = getc(file);
+    }
     return c;
 }
 

@@ -5,15 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char usage[] =
-    "Usage: tuile COMMAND ...\n"
-    "\n"
-    "  tuile render MODEL [options]       draw a model on a simulated panel, as pictures\n"
-    "  tuile mesh IN -o OUT.c|OUT.tuile   compile a model for flash\n"
-    "  tuile faces SCENE                  the visible face of each pixel of a text scene\n"
-    "  tuile coverage W H < FILE          the pixels of polygons given in 1/16 pixel\n"
-    "\n"
-    "  tuile COMMAND --help               the options of a command\n";
+static const char usage[] = "Usage: tuile COMMAND ...\n"
+                            "\n"
+                            "  tuile render MODEL [options]       draw a model on a simulated panel, as pictures\n"
+                            "  tuile mesh IN -o OUT.c|OUT.tuile   compile a model for flash\n"
+                            "  tuile faces SCENE                  the visible face of each pixel of a text scene\n"
+                            "  tuile coverage W H < FILE          the pixels of polygons given in 1/16 pixel\n"
+                            "\n"
+                            "  tuile COMMAND --help               the options of a command\n";
 
 int main(int count, char **arguments) {
     static const struct {

@@ -59,7 +59,8 @@ bool options_numbers(options_t *options, double *values, size_t count, double lo
         values[i] = strtod(at, &end);
         const char expected = i + 1 < count ? ',' : '\0';
         if (end == at || *end != expected || !isfinite(values[i])) {
-            (void)command_fail(count == 1 ? "%s %s: not a number" : "%s %s: wants numbers with commas between, like 1,2,3", options->name, text);
+            (void)command_fail(count == 1 ? "%s %s: not a number" : "%s %s: wants numbers with commas between, like 1,2,3",
+                               options->name, text);
             return fail(options);
         }
         if (values[i] < low || values[i] > high) {
@@ -71,7 +72,9 @@ bool options_numbers(options_t *options, double *values, size_t count, double lo
     return true;
 }
 
-bool options_number(options_t *options, double *value, double low, double high) { return options_numbers(options, value, 1, low, high); }
+bool options_number(options_t *options, double *value, double low, double high) {
+    return options_numbers(options, value, 1, low, high);
+}
 
 bool options_integer(options_t *options, long *value, long low, long high) {
     const char *text = options_value(options);

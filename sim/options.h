@@ -9,8 +9,8 @@
 typedef struct options {
     int count;
     char **arguments;
-    int at;             /* of the argument that options_next returns next */
-    const char *name;   /* of the current option, NULL for a plain argument */
+    int at;              /* of the argument that options_next returns next */
+    const char *name;    /* of the current option, NULL for a plain argument */
     const char *inlined; /* value after '=' */
     char buffer[64];
     bool taken;  /* the value after '=' was asked for */

@@ -19,9 +19,7 @@ int sim_picture_create(sim_picture_t *out, uint32_t width, uint32_t height, sim_
         return sim_fail(error, "a picture of %u x %u pixels: each side must be 1 to %u", width, height, SIM_PICTURE_MAX_PX);
     }
     out->rgb = calloc((size_t)width * height, 3);
-    if (!out->rgb) {
-        return sim_fail(error, "no memory for a picture of %u x %u pixels", width, height);
-    }
+    if (!out->rgb) { return sim_fail(error, "no memory for a picture of %u x %u pixels", width, height); }
     out->width = width;
     out->height = height;
     return 0;
@@ -43,9 +41,7 @@ static bool ends_with(const char *path, const char *end) {
 static int write_ppm(const sim_picture_t *picture, FILE *file) {
     size_t size = (size_t)picture->width * picture->height * 3u;
 
-    if (fprintf(file, "P6\n%u %u\n255\n", picture->width, picture->height) < 0) {
-        return -1;
-    }
+    if (fprintf(file, "P6\n%u %u\n255\n", picture->width, picture->height) < 0) { return -1; }
     return fwrite(picture->rgb, 1, size, file) == size ? 0 : -1;
 }
 
@@ -53,9 +49,7 @@ static int write_png(const sim_picture_t *picture, FILE *file, char *why, size_t
     png_image image = {.version = PNG_IMAGE_VERSION, .width = picture->width, .height = picture->height, .format = PNG_FORMAT_RGB};
     int good = png_image_write_to_stdio(&image, file, 0, picture->rgb, (png_int_32)(3u * picture->width), NULL);
 
-    if (!good) {
-        snprintf(why, why_size, "%s", image.message);
-    }
+    if (!good) { snprintf(why, why_size, "%s", image.message); }
     png_image_free(&image);
     return good ? 0 : -1;
 }
@@ -72,13 +66,9 @@ static int fill(const sim_picture_t *picture, FILE *file, const char *path, sim_
         result = -1;
         reason = errno;
     }
-    if (result == 0) {
-        return 0;
-    }
+    if (result == 0) { return 0; }
     /* The system's reason is the better one; the library knows only that a write failed. */
-    if (reason == 0 && why[0]) {
-        return sim_fail(error, "%s: cannot write the picture: %s", path, why);
-    }
+    if (reason == 0 && why[0]) { return sim_fail(error, "%s: cannot write the picture: %s", path, why); }
     return sim_fail(error, "%s: cannot write the picture: %s", path, strerror(reason ? reason : EIO));
 }
 
@@ -94,12 +84,8 @@ static FILE *open_beside(const char *path, char *temporary) {
             return NULL;
         }
         descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor < 0 && errno == EEXIST) {
-            continue;
-        }
-        if (descriptor < 0) {
-            return NULL;
-        }
+        if (descriptor < 0 && errno == EEXIST) { continue; }
+        if (descriptor < 0) { return NULL; }
         file = fdopen(descriptor, "wb");
         if (!file) {
             int reason = errno;
@@ -121,26 +107,18 @@ int sim_picture_write(const sim_picture_t *picture, const char *path, sim_error_
     if (!ends_with(path, ".ppm") && !ends_with(path, ".png")) {
         return sim_fail(error, "%s: cannot tell the kind of picture: end the name in .png or .ppm", path);
     }
-    if (!picture->rgb) {
-        return sim_fail(error, "%s: the picture to write is empty", path);
-    }
+    if (!picture->rgb) { return sim_fail(error, "%s: the picture to write is empty", path); }
     if (stat(path, &status) == 0) {
-        if (S_ISDIR(status.st_mode)) {
-            return sim_fail(error, "%s: cannot write the picture: it is a folder", path);
-        }
+        if (S_ISDIR(status.st_mode)) { return sim_fail(error, "%s: cannot write the picture: it is a folder", path); }
         if (!S_ISREG(status.st_mode)) {
             file = fopen(path, "wb");
             return file ? fill(picture, file, path, error) : sim_fail(error, "%s: cannot open: %s", path, strerror(errno));
         }
         /* Through a symbolic link, lest the rename replace the link. */
-        if (realpath(path, resolved)) {
-            target = resolved;
-        }
+        if (realpath(path, resolved)) { target = resolved; }
     }
     file = open_beside(target, temporary);
-    if (!file) {
-        return sim_fail(error, "%s: cannot create: %s", path, strerror(errno));
-    }
+    if (!file) { return sim_fail(error, "%s: cannot create: %s", path, strerror(errno)); }
     if (fill(picture, file, path, error)) {
         unlink(temporary);
         return -1;
@@ -166,14 +144,10 @@ static int read_number(FILE *file, uint32_t *number) {
         }
         c = getc(file);
     }
-    if (c < '0' || c > '9') {
-        return -1;
-    }
+    if (c < '0' || c > '9') { return -1; }
     for (*number = 0; c >= '0' && c <= '9'; c = getc(file)) {
         *number = *number * 10u + (uint32_t)(c - '0');
-        if (*number > SIM_PICTURE_MAX_PX) {
-            return -1;
-        }
+        if (*number > SIM_PICTURE_MAX_PX) { return -1; }
     }
     return 0; /* the one space after the number has been taken */
 }
@@ -185,9 +159,7 @@ static int read_ppm(sim_picture_t *out, FILE *file, const char *path, sim_error_
     if (read_number(file, &width) || read_number(file, &height) || read_number(file, &depth) || depth != 255) {
         return sim_fail(error, "%s: not a binary PPM of 8 bits and at most %u pixels a side", path, SIM_PICTURE_MAX_PX);
     }
-    if (sim_picture_create(out, width, height, error)) {
-        return -1;
-    }
+    if (sim_picture_create(out, width, height, error)) { return -1; }
     size = (size_t)width * height * 3u;
     if (fread(out->rgb, 1, size, file) != size) {
         sim_picture_free(out);
@@ -221,9 +193,7 @@ int sim_picture_read(sim_picture_t *out, const char *path, sim_error_t *error) {
     int result;
 
     *out = (sim_picture_t){0};
-    if (!file) {
-        return sim_fail(error, "%s: cannot open: %s", path, strerror(errno));
-    }
+    if (!file) { return sim_fail(error, "%s: cannot open: %s", path, strerror(errno)); }
     if (fread(magic, 1, 2, file) != 2) {
         result = sim_fail(error, "%s: too short for a picture", path);
     } else if (magic[0] == 'P' && magic[1] == '6') {
@@ -242,9 +212,7 @@ int sim_picture_turn(const sim_picture_t *picture, int quarter_turns, sim_pictur
     unsigned turn = (unsigned)quarter_turns & 3u; /* two's complement: -1 is 3 */
     uint32_t width = picture->width, height = picture->height;
 
-    if (sim_picture_create(out, turn & 1u ? height : width, turn & 1u ? width : height, error)) {
-        return -1;
-    }
+    if (sim_picture_create(out, turn & 1u ? height : width, turn & 1u ? width : height, error)) { return -1; }
     for (uint32_t y = 0; y < height; y++) {
         for (uint32_t x = 0; x < width; x++) {
             uint32_t to_x = turn == 0 ? x : turn == 1 ? height - 1 - y : turn == 2 ? width - 1 - x : y;
@@ -260,9 +228,7 @@ int sim_picture_magnify(const sim_picture_t *picture, uint32_t factor, sim_pictu
         *out = (sim_picture_t){0};
         return sim_fail(error, "cannot magnify a picture %u times", factor);
     }
-    if (sim_picture_create(out, picture->width * factor, picture->height * factor, error)) {
-        return -1;
-    }
+    if (sim_picture_create(out, picture->width * factor, picture->height * factor, error)) { return -1; }
     for (uint32_t y = 0; y < out->height; y++) {
         for (uint32_t x = 0; x < out->width; x++) {
             memcpy(sim_picture_at(out, x, y), sim_picture_at(picture, x / factor, y / factor), 3);
@@ -272,9 +238,7 @@ int sim_picture_magnify(const sim_picture_t *picture, uint32_t factor, sim_pictu
 }
 
 int sim_picture_halve(const sim_picture_t *picture, sim_picture_t *out, sim_error_t *error) {
-    if (sim_picture_create(out, (picture->width + 1) / 2, (picture->height + 1) / 2, error)) {
-        return -1;
-    }
+    if (sim_picture_create(out, (picture->width + 1) / 2, (picture->height + 1) / 2, error)) { return -1; }
     for (uint32_t y = 0; y < out->height; y++) {
         for (uint32_t x = 0; x < out->width; x++) {
             unsigned sum[3] = {0}, count = 0;
@@ -301,9 +265,7 @@ int sim_picture_difference(const sim_picture_t *a, const sim_picture_t *b, sim_p
         *out = (sim_picture_t){0};
         return sim_fail(error, "pictures of unlike size: %u x %u and %u x %u", a->width, a->height, b->width, b->height);
     }
-    if (sim_picture_create(out, a->width, a->height, error)) {
-        return -1;
-    }
+    if (sim_picture_create(out, a->width, a->height, error)) { return -1; }
     for (size_t i = 0; i < (size_t)a->width * a->height; i++) {
         const uint8_t *p = a->rgb + 3 * i, *q = b->rgb + 3 * i;
         uint8_t *to = out->rgb + 3 * i;
@@ -319,8 +281,6 @@ int sim_picture_difference(const sim_picture_t *a, const sim_picture_t *b, sim_p
             to[0] = to[1] = to[2] = (uint8_t)((p[0] + 2 * p[1] + p[2]) / 16);
         }
     }
-    if (count) {
-        *count = differ;
-    }
+    if (count) { *count = differ; }
     return 0;
 }

@@ -17,7 +17,9 @@ typedef struct wide {
 static wide_t wide_from(int64_t value) {
     wide_t w = {.sign = (value > 0) - (value < 0)};
     uint64_t magnitude = value < 0 ? 0u - (uint64_t)value : (uint64_t)value;
-    for (; magnitude; magnitude >>= 32) { w.limb[w.count++] = (uint32_t)magnitude; }
+    for (; magnitude; magnitude >>= 32) {
+        w.limb[w.count++] = (uint32_t)magnitude;
+    }
     return w;
 }
 
@@ -40,7 +42,9 @@ static wide_t wide_multiply(const wide_t *a, const wide_t *b) {
         }
     }
     product.count = a->count + b->count;
-    while (product.count > 0 && product.limb[product.count - 1] == 0) { product.count--; }
+    while (product.count > 0 && product.limb[product.count - 1] == 0) {
+        product.count--;
+    }
     return product;
 }
 
@@ -131,9 +135,13 @@ static bool same_vertex(const scene_number_t a[3], const scene_number_t b[3]) {
 
 scene_polygon_t scene_polygon_check(const scene_number_t (*v)[3], size_t count, size_t plane[3], size_t *off) {
     size_t second = 1;
-    while (second < count && same_vertex(v[0], v[second])) { second++; }
+    while (second < count && same_vertex(v[0], v[second])) {
+        second++;
+    }
     size_t third = second;
-    while (third < count && (same_vertex(v[0], v[third]) || same_vertex(v[second], v[third]))) { third++; }
+    while (third < count && (same_vertex(v[0], v[third]) || same_vertex(v[second], v[third]))) {
+        third++;
+    }
     if (third >= count) { return SCENE_POLYGON_FEW; }
 
     wide_vector_t along = vector_between(v[0], v[second]), normal = {0};

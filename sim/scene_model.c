@@ -108,7 +108,9 @@ int scene_text_mesh(const scene_text_t *scene, mesh_t *mesh, scene_quantisation_
     memset(mesh->materials[0], 255, sizeof mesh->materials[0]);
     for (size_t i = 0; i < scene->vertex_count; i++) {
         mesh->corners[i] = (uint32_t)i;
-        for (int k = 0; k < 3; k++) { mesh->positions[i][k] = to_steps(scene->vertices[i][k], quantisation->exponent); }
+        for (int k = 0; k < 3; k++) {
+            mesh->positions[i][k] = to_steps(scene->vertices[i][k], quantisation->exponent);
+        }
     }
     for (size_t i = 0; i < scene->poly_count; i++) {
         mesh->faces[i] = (mesh_face_t){
@@ -192,7 +194,9 @@ int scene_text_camera(const scene_text_t *scene, const scene_quantisation_t *qua
     *view = (scene_view_t){.exact = true, .tie = scene->tie_last ? TUILE_TIE_LAST : TUILE_TIE_FIRST};
     tuile_camera_t *camera = &view->camera;
     camera->projection = scene->projection;
-    for (int i = 0; i < 3; i++) { camera->rotation[i][i] = TUILE_ONE_Q30; }
+    for (int i = 0; i < 3; i++) {
+        camera->rotation[i][i] = TUILE_ONE_Q30;
+    }
     /* The text samples pixel i at i + SX, Tuile at i + 1/2: the picture moves by the difference. */
     const int128_t half = (int128_t)1 << 59;
     q16_16_t centre[2];

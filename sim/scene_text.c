@@ -35,7 +35,9 @@ typedef struct quoted {
 static quoted_t quote(word_t word) {
     quoted_t quoted;
     size_t room = sizeof quoted.text - 4, count = word.length < room ? word.length : room;
-    for (size_t i = 0; i < count; i++) { quoted.text[i] = word.start[i]; }
+    for (size_t i = 0; i < count; i++) {
+        quoted.text[i] = word.start[i];
+    }
     for (size_t i = 0; i < count; i++) {
         if (quoted.text[i] < ' ' || quoted.text[i] > '~') { quoted.text[i] = '?'; }
     }
@@ -63,9 +65,13 @@ static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /* The next word of the line; length 0 at its end. */
 static word_t next_word(parser_t *parser) {
-    while (parser->at < parser->end && is_blank(*parser->at)) { parser->at++; }
+    while (parser->at < parser->end && is_blank(*parser->at)) {
+        parser->at++;
+    }
     word_t word = {parser->at, 0};
-    while (parser->at < parser->end && !is_blank(*parser->at)) { parser->at++; }
+    while (parser->at < parser->end && !is_blank(*parser->at)) {
+        parser->at++;
+    }
     word.length = (size_t)(parser->at - word.start);
     return word;
 }
@@ -104,20 +110,26 @@ static number_fault_t parse_number(word_t word, scene_number_t *number) {
     uint64_t numerator = 0, denominator = 1;
     size_t digits = 0;
     bool fits = true;
-    for (; at < end && is_digit(*at); at++, digits++) { fits = fits && append_digit(&numerator, (unsigned)(*at - '0')); }
+    for (; at < end && is_digit(*at); at++, digits++) {
+        fits = fits && append_digit(&numerator, (unsigned)(*at - '0'));
+    }
     if (at < end && *at == '.') {
         size_t zeros = 0; /* those at the end of a decimal do not count against its length */
         for (at++; at < end && is_digit(*at); at++, digits++) {
             zeros++;
             if (*at == '0') { continue; }
-            for (; zeros > 1 && fits; zeros--) { fits = append_digit(&numerator, 0) && append_digit(&denominator, 0); }
+            for (; zeros > 1 && fits; zeros--) {
+                fits = append_digit(&numerator, 0) && append_digit(&denominator, 0);
+            }
             fits = fits && append_digit(&numerator, (unsigned)(*at - '0')) && append_digit(&denominator, 0);
             zeros = 0;
         }
     } else if (at < end && *at == '/' && digits) {
         size_t below = 0;
         denominator = 0;
-        for (at++; at < end && is_digit(*at); at++, below++) { fits = fits && append_digit(&denominator, (unsigned)(*at - '0')); }
+        for (at++; at < end && is_digit(*at); at++, below++) {
+            fits = fits && append_digit(&denominator, (unsigned)(*at - '0'));
+        }
         if (!below) { return NUMBER_MALFORMED; }
     }
     if (!digits || at != end) { return NUMBER_MALFORMED; }
@@ -134,15 +146,11 @@ static number_fault_t parse_number(word_t word, scene_number_t *number) {
 static int read_number(parser_t *parser, word_t word, const char *what, scene_number_t *number) {
     if (!word.length) { return FAIL(parser, "%s is missing", what); }
     switch (parse_number(word, number)) {
-    case NUMBER_GOOD:
-        return 0;
-    case NUMBER_TOO_LONG:
-        return FAIL(parser, "%s '%s' has more digits than 64 bits hold", what, quote(word).text);
-    case NUMBER_ZERO_DENOMINATOR:
-        return FAIL(parser, "%s '%s' divides by zero", what, quote(word).text);
+    case NUMBER_GOOD: return 0;
+    case NUMBER_TOO_LONG: return FAIL(parser, "%s '%s' has more digits than 64 bits hold", what, quote(word).text);
+    case NUMBER_ZERO_DENOMINATOR: return FAIL(parser, "%s '%s' divides by zero", what, quote(word).text);
     case NUMBER_MALFORMED:
-    default:
-        return FAIL(parser, "%s '%s' is neither a decimal nor a fraction", what, quote(word).text);
+    default: return FAIL(parser, "%s '%s' is neither a decimal nor a fraction", what, quote(word).text);
     }
 }
 
@@ -201,13 +209,17 @@ static int read_vertex(parser_t *parser, word_t word, size_t number) {
     scene_number_t vertex[3];
     const char *at = word.start, *end = word.start + word.length;
     size_t commas = 0;
-    for (const char *c = at; c < end; c++) { commas += *c == ','; }
+    for (const char *c = at; c < end; c++) {
+        commas += *c == ',';
+    }
     if (commas != 2) {
         return FAIL(parser, "vertex %zu, '%s', is not x,y,z (no blanks around the commas)", number, quote(word).text);
     }
     for (int i = 0; i < 3; i++) {
         word_t part = {at, 0};
-        while (at < end && *at != ',') { at++; }
+        while (at < end && *at != ',') {
+            at++;
+        }
         part.length = (size_t)(at - part.start);
         at++; /* the comma; behind the last number nothing looks at it */
         char what[48];
@@ -223,8 +235,8 @@ static int check_poly(parser_t *parser, const scene_poly_t *poly) {
     case SCENE_POLYGON_FEW: return FAIL(parser, "polygon %lu has fewer than three distinct vertices", (unsigned long)poly->id);
     case SCENE_POLYGON_LINE: return FAIL(parser, "polygon %lu has no area: its vertices lie on one line", (unsigned long)poly->id);
     case SCENE_POLYGON_BENT:
-        return FAIL(parser, "polygon %lu is not planar: vertex %zu is off the plane of vertices 1, %zu and %zu", (unsigned long)poly->id,
-                    off + 1, plane[1] + 1, plane[2] + 1);
+        return FAIL(parser, "polygon %lu is not planar: vertex %zu is off the plane of vertices 1, %zu and %zu",
+                    (unsigned long)poly->id, off + 1, plane[1] + 1, plane[2] + 1);
     default: return 0;
     }
 }
@@ -286,25 +298,19 @@ static int read_pair(parser_t *parser, const char *what_x, const char *what_y, s
 static int read_setting(parser_t *parser, int key) {
     scene_text_t *scene = parser->scene;
     switch (key) {
-    case KEY_SCREEN:
-        return read_screen(parser);
-    case KEY_CAMERA:
-        return read_camera(parser);
-    case KEY_ORIGIN:
-        return read_pair(parser, "origin CX", "origin CY", scene->origin);
+    case KEY_SCREEN: return read_screen(parser);
+    case KEY_CAMERA: return read_camera(parser);
+    case KEY_ORIGIN: return read_pair(parser, "origin CX", "origin CY", scene->origin);
     case KEY_YSIGN: {
         bool minus;
         if (read_choice(parser, "ysign", "1", "-1", &minus) < 0) { return -1; }
         scene->y_sign = minus ? -1 : 1;
         return 0;
     }
-    case KEY_SAMPLE:
-        return read_pair(parser, "sample SX", "sample SY", scene->sample);
-    case KEY_NEAR:
-        return read_choice(parser, "near", "min", "max", &scene->near_max);
+    case KEY_SAMPLE: return read_pair(parser, "sample SX", "sample SY", scene->sample);
+    case KEY_NEAR: return read_choice(parser, "near", "min", "max", &scene->near_max);
     case KEY_TIE:
-    default:
-        return read_choice(parser, "tie", "first", "last", &scene->tie_last);
+    default: return read_choice(parser, "tie", "first", "last", &scene->tie_last);
     }
 }
 
@@ -341,7 +347,9 @@ static int finish(parser_t *parser) {
 
 int scene_text_parse(scene_text_t *scene, const char *text, size_t size, const char *name, sim_error_t *error) {
     *scene = (scene_text_t){.focal = {1, 1}, .near = {1, 1}, .y_sign = 1};
-    for (int i = 0; i < 2; i++) { scene->origin[i] = scene->sample[i] = (scene_number_t){0, 1}; }
+    for (int i = 0; i < 2; i++) {
+        scene->origin[i] = scene->sample[i] = (scene_number_t){0, 1};
+    }
     parser_t parser = {.scene = scene, .name = name, .error = error};
     int result = 0;
     for (size_t at = 0; at < size && result == 0;) {

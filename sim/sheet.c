@@ -14,13 +14,9 @@ int sim_sheet(const sim_picture_t *pictures, uint32_t count, const sim_sheet_con
     uint64_t width, height;
 
     *out = (sim_picture_t){0};
-    if (count == 0) {
-        return sim_fail(error, "a contact sheet of no pictures");
-    }
+    if (count == 0) { return sim_fail(error, "a contact sheet of no pictures"); }
     for (uint32_t i = 0; i < count; i++) {
-        if (!pictures[i].rgb) {
-            return sim_fail(error, "picture %u of the contact sheet is empty", i + 1);
-        }
+        if (!pictures[i].rgb) { return sim_fail(error, "picture %u of the contact sheet is empty", i + 1); }
         cell_width = pictures[i].width > cell_width ? pictures[i].width : cell_width;
         cell_height = pictures[i].height > cell_height ? pictures[i].height : cell_height;
     }
@@ -39,9 +35,7 @@ int sim_sheet(const sim_picture_t *pictures, uint32_t count, const sim_sheet_con
         return sim_fail(error, "a contact sheet of %u pictures in %u columns is too large: at most %u pixels a side", count,
                         columns, SIM_PICTURE_MAX_PX);
     }
-    if (sim_picture_create(out, (uint32_t)width, (uint32_t)height, error)) {
-        return -1;
-    }
+    if (sim_picture_create(out, (uint32_t)width, (uint32_t)height, error)) { return -1; }
     for (size_t i = 0; i < (size_t)width * height; i++) {
         memcpy(out->rgb + 3 * i, config->background, 3);
     }

@@ -10,7 +10,9 @@ static q16_16_t to_q16(double value) { return (q16_16_t)llround(value * 65536.0)
 /* Bounding sphere in model units. */
 static void model_sphere(const tuile_model_t *model, double centre[3], double *radius) {
     const double step = ldexp((double)model->step.mantissa, model->step.exponent);
-    for (int i = 0; i < 3; i++) { centre[i] = step * ((double)model->offset[i] + model->centre[i]); }
+    for (int i = 0; i < 3; i++) {
+        centre[i] = step * ((double)model->offset[i] + model->centre[i]);
+    }
     *radius = step * (model->radius + 1.0);
 }
 
@@ -30,9 +32,13 @@ static void frame_model(framing_t *f, const view_options_t *o, const tuile_model
         const double half = f->fov * 3.14159265358979323846 / 360.0, across = atan(tan(half) * aspect);
         const double back = radius / sin(half < across ? half : across);
         static const double from[3] = {0.4, 0.3, 1.0};
-        for (int i = 0; i < 3; i++) { f->eye[i] = f->at[i] + back * from[i] / length3(from); }
+        for (int i = 0; i < 3; i++) {
+            f->eye[i] = f->at[i] + back * from[i] / length3(from);
+        }
     }
-    for (int i = 0; i < 3; i++) { distance[i] = centre[i] - f->eye[i]; }
+    for (int i = 0; i < 3; i++) {
+        distance[i] = centre[i] - f->eye[i];
+    }
     const double reach = length3(distance) + radius;
     f->far = o->has_far ? o->far : reach * 1.01;
     f->near = o->has_near ? o->near : fmax(length3(distance) - radius * 1.01, f->far / 1000.0);
@@ -45,12 +51,15 @@ static double world_unit(const framing_t *f, const tuile_model_t *model) {
     int exponent;
     model_sphere(model, centre, &radius);
     largest = fmax(fmax(fabs(f->near), fabs(f->far)), radius);
-    for (int i = 0; i < 3; i++) { largest = fmax(largest, fmax(fabs(f->eye[i]), fmax(fabs(f->at[i]), fabs(centre[i]) + radius))); }
+    for (int i = 0; i < 3; i++) {
+        largest = fmax(largest, fmax(fabs(f->eye[i]), fmax(fabs(f->at[i]), fabs(centre[i]) + radius)));
+    }
     (void)frexp(largest, &exponent);
     return ldexp(1.0, 13 - exponent);
 }
 
-static int place_camera(view_t *view, const view_options_t *o, const framing_t *f, uint16_t width, uint16_t height, sim_error_t *error) {
+static int place_camera(view_t *view, const view_options_t *o, const framing_t *f, uint16_t width, uint16_t height,
+                        sim_error_t *error) {
     tuile_camera_t *camera = &view->scene.camera;
     q16_16_t eye[3], at[3], up[3];
     const double up_length = length3(o->up);
@@ -65,7 +74,8 @@ static int place_camera(view_t *view, const view_options_t *o, const framing_t *
     }
     const double near = f->near * view->unit, far = f->far * view->unit;
     camera->projection = o->has_ortho ? TUILE_ORTHOGRAPHIC : TUILE_PERSPECTIVE;
-    const double focal = o->has_ortho ? height / (o->ortho * view->unit) : height / 2.0 / tan(f->fov * 3.14159265358979323846 / 360.0);
+    const double focal =
+        o->has_ortho ? height / (o->ortho * view->unit) : height / 2.0 / tan(f->fov * 3.14159265358979323846 / 360.0);
     camera->focal_x = to_q16(fmin(focal / o->pitch[0], 32767.0));
     camera->focal_y = to_q16(fmin(focal / o->pitch[1], 32767.0));
     camera->centre_x = o->has_centre ? to_q16(o->centre[0]) : (q16_16_t)width * 32768;
@@ -73,7 +83,9 @@ static int place_camera(view_t *view, const view_options_t *o, const framing_t *
     camera->near = to_q16(near);
     camera->far = to_q16(far);
     if ((!o->has_ortho && camera->near <= 0) || camera->far <= camera->near) {
-        return sim_fail(error, "--near %g --far %g: near must be greater than 0 and less than far, and not millions of times smaller", f->near, f->far);
+        return sim_fail(error,
+                        "--near %g --far %g: near must be greater than 0 and less than far, and not millions of times smaller",
+                        f->near, f->far);
     }
     if (camera->focal_x <= 0 || camera->focal_y <= 0 || focal / o->pitch[0] > 32767.0 || focal / o->pitch[1] > 32767.0) {
         return sim_fail(error, "%s: the picture would be magnified beyond what can be drawn", o->has_ortho ? "--ortho" : "--fov");
@@ -85,12 +97,16 @@ static int place_light(view_t *view, const view_options_t *o, sim_error_t *error
     static const double over_the_shoulder[3] = {-0.4, -0.6, -1.0}; /* view space */
     double light[3] = {0, 0, 0};
     for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 3; k++) { light[i] += view->scene.camera.rotation[k][i] / (double)TUILE_ONE_Q30 * over_the_shoulder[k]; }
+        for (int k = 0; k < 3; k++) {
+            light[i] += view->scene.camera.rotation[k][i] / (double)TUILE_ONE_Q30 * over_the_shoulder[k];
+        }
     }
     if (o->has_light) { memcpy(light, o->light, sizeof light); }
     const double length = length3(light);
     if (length == 0.0) { return sim_fail(error, "--light 0,0,0 is no direction"); }
-    for (int i = 0; i < 3; i++) { view->light.direction[i] = (q2_14_t)lround(light[i] / length * 16384.0); }
+    for (int i = 0; i < 3; i++) {
+        view->light.direction[i] = (q2_14_t)lround(light[i] / length * 16384.0);
+    }
     view->light.intensity = (uint8_t)lround(o->diffuse * 255.0);
     return 0;
 }
@@ -129,7 +145,9 @@ void view_frame(view_t *view, unsigned frame) {
         cosine = round(cosine);
     }
     const double length = length3(view->up);
-    for (int i = 0; i < 3; i++) { u[i] = view->up[i] / length; }
+    for (int i = 0; i < 3; i++) {
+        u[i] = view->up[i] / length;
+    }
     for (int i = 0; i < 3; i++) {
         double shifted = view->at[i];
         for (int j = 0; j < 3; j++) {

@@ -11,13 +11,13 @@
 typedef struct view_options {
     bool has_eye, has_at, has_fov, has_near, has_far, has_light, has_ortho, has_centre, has_spin;
     double eye[3], at[3], up[3];
-    double fov;        /* full vertical angle, degrees */
+    double fov; /* full vertical angle, degrees */
     double near, far;
-    double light[3];   /* the way it travels, world */
-    double ortho;      /* height of the window in model units */
-    double pitch[2];   /* size of a pixel, x and y, relative: 1, 1 are square ones */
-    double centre[2];  /* principal point, pixels */
-    double spin;       /* degrees a frame, about `up` through `at` */
+    double light[3];         /* the way it travels, world */
+    double ortho;            /* height of the window in model units */
+    double pitch[2];         /* size of a pixel, x and y, relative: 1, 1 are square ones */
+    double centre[2];        /* principal point, pixels */
+    double spin;             /* degrees a frame, about `up` through `at` */
     double ambient, diffuse; /* 0 ... 1 */
     uint8_t background[3];
 } view_options_t;

@@ -131,9 +131,13 @@ static bool try_bytes(const uint8_t *bytes, size_t size) {
 
 static void put_right(uint8_t *bytes, size_t size) {
     if (size < MODEL_HEADER_BYTES) { return; }
-    for (unsigned i = 0; i < 4; i++) { bytes[MODEL_AT_SIZE + i] = (uint8_t)(size >> 8 * i); }
+    for (unsigned i = 0; i < 4; i++) {
+        bytes[MODEL_AT_SIZE + i] = (uint8_t)(size >> 8 * i);
+    }
     const uint32_t crc = model_crc32(0, bytes + MODEL_AT_VERSION, size - MODEL_AT_VERSION);
-    for (unsigned i = 0; i < 4; i++) { bytes[MODEL_AT_CRC32 + i] = (uint8_t)(crc >> 8 * i); }
+    for (unsigned i = 0; i < 4; i++) {
+        bytes[MODEL_AT_CRC32 + i] = (uint8_t)(crc >> 8 * i);
+    }
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {

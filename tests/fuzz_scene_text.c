@@ -37,7 +37,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
     sim_error_t error = {""};
     if (scene_text_parse(&scene, (const char *)bytes, size, "fuzz", &error) < 0) {
         require(error.text[0] != 0, "refused without a word");
-        for (const char *c = error.text; *c; c++) { require(*c >= ' ' && *c <= '~', "the error is not printable"); }
+        for (const char *c = error.text; *c; c++) {
+            require(*c >= ' ' && *c <= '~', "the error is not printable");
+        }
         require(!scene.polys && !scene.vertices, "a refused scene is not empty");
         return 0;
     }

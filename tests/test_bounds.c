@@ -66,9 +66,7 @@ static void short_edges_at_the_ends_of_the_coordinates(void **state) {
         for (int32_t dx = 1 - SHORT_SIDE; dx < SHORT_SIDE; dx++) {
             for (int32_t dy = 1; dy < SHORT_SIDE; dy += dy < 40 ? 1 : 29) {
                 const int32_t x0 = ends[i], y0 = -3, first = edge_row(y0), end = edge_row(y0 + dy);
-                if (x0 + dx < INT16_MIN + 8 || x0 + dx > INT16_MAX - 16 || first >= end) {
-                    continue;
-                }
+                if (x0 + dx < INT16_MIN + 8 || x0 + dx > INT16_MAX - 16 || first >= end) { continue; }
                 for (int last = 0; last < 2; last++) {
                     const int32_t row = last ? end - 1 : first;
                     const short_edge_t edge = short_edge_start(x0, y0, x0 + dx, y0 + dy, row);
@@ -82,9 +80,7 @@ static void short_edges_at_the_ends_of_the_coordinates(void **state) {
 
 static void leftmost_short_edge(void) {
     const short_edge_t edge = short_edge_start(INT16_MIN + 1, 0, INT16_MIN + 1, 32, 0);
-    if (short_edge_pixel(edge.x) != -2048) {
-        abort();
-    }
+    if (short_edge_pixel(edge.x) != -2048) { abort(); }
 }
 
 static void a_short_edge_at_its_stated_left_end_does_not_overflow(void **state) {
@@ -122,9 +118,7 @@ static void triangles_at_the_ends_of_everything(void **state) {
             v[i] = (vertex_t){(int16_t)at[0], (int16_t)at[1], z << 8 | (random_one_in(&random, 2) ? LIGHT_MIN : LIGHT_MAX)};
         }
         const int32_t area = (v[2].x - v[0].x) * (v[1].y - v[0].y) - (v[1].x - v[0].x) * (v[2].y - v[0].y);
-        if (area == 0) {
-            continue;
-        }
+        if (area == 0) { continue; }
         if (area < 0) {
             const vertex_t swap = v[1];
             v[1] = v[2];
@@ -133,9 +127,7 @@ static void triangles_at_the_ends_of_everything(void **state) {
         const int top = v[1].y < v[0].y && v[1].y <= v[2].y ? 1 : v[2].y < v[0].y && v[2].y <= v[1].y ? 2 : 0;
         const vertex_t *v0 = &v[top], *v1 = &v[(top + 1) % 3], *v2 = &v[(top + 2) % 3];
         const int32_t begin = edge_row(v0->y), end = edge_row(v1->y > v2->y ? v1->y : v2->y);
-        if (begin >= end) {
-            continue;
-        }
+        if (begin >= end) { continue; }
         const int32_t first = random_one_in(&random, 3)   ? INT16_MIN
                               : random_one_in(&random, 2) ? end - 1
                                                           : random_between(&random, begin, end - 1);
@@ -178,9 +170,7 @@ static void polygons_at_the_ends_of_everything(void **state) {
         }
         const polygon_ring_t ring = {v, NULL, NULL, count};
         polygon_t p;
-        if (!polygon_start(&p, &ring, random_one_in(&random, 2) ? INT16_MIN : 0)) {
-            continue;
-        }
+        if (!polygon_start(&p, &ring, random_one_in(&random, 2) ? INT16_MIN : 0)) { continue; }
         p.value = 1;
         const int32_t left = random_one_in(&random, 2) ? p.head.left : 0;
         const raster_tile_t tile = {depth, ids, left, p.row, left + SIZE, p.row + SIZE, SIZE};
@@ -216,9 +206,7 @@ static void scenes_at_the_ends_of_their_ranges(void **state) {
 #define ANY(array) ((array)[random_between(&random, 0, CHECK_COUNT(array) - 1)])
         model.radius = 57000; /* round the origin it holds every position but INT16_MIN's corners */
         model.step = (tuile_scale_t){random_one_in(&random, 2) ? 1 : UINT32_MAX, random_between(&random, -60, 30)};
-        if (random_one_in(&random, 20)) {
-            model.step.exponent = random_one_in(&random, 2) ? -1000 : 1000;
-        }
+        if (random_one_in(&random, 20)) { model.step.exponent = random_one_in(&random, 2) ? -1000 : 1000; }
         instance.pose.scale = (tuile_scale_t){random_one_in(&random, 2) ? 1 : UINT32_MAX, random_between(&random, -30, 20)};
         instance.model = &model;
         for (int i = 0; i < 3; i++) {
@@ -277,9 +265,7 @@ static void scenes_at_the_ends_of_their_ranges(void **state) {
         }
         (void)cull_outside(&transform, cluster);
         cluster[CLUSTER_AT_CUTOFF] = 254;
-        if (transform.eye_shift < 32) {
-            (void)cull_faces_away(&transform, cluster);
-        } /* more: see below */
+        if (transform.eye_shift < 32) { (void)cull_faces_away(&transform, cluster); } /* more: see below */
     }
     print_message("extreme scenes: %u made, %u refused, %u with something left of the face\n", made, refused, clipped);
     assert_true(made > 100 && clipped > 10);
@@ -304,13 +290,9 @@ static void farthest_eye(void) {
     scene.camera.far = INT32_MAX;
     scene.instances = &instance;
     scene.instance_count = 1;
-    if (transform_make(&transform, &scene, &instance, 64, 64) != TUILE_OK) {
-        return;
-    }
+    if (transform_make(&transform, &scene, &instance, 64, 64) != TUILE_OK) { return; }
     cluster[CLUSTER_AT_AXIS + 2] = 127;
-    if (cull_faces_away(&transform, cluster)) {
-        abort();
-    } /* it faces the eye */
+    if (cull_faces_away(&transform, cluster)) { abort(); } /* it faces the eye */
 }
 
 static void an_eye_too_far_away_is_not_shifted_by_more_than_31(void **state) {

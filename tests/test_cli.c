@@ -110,7 +110,9 @@ static void help_goes_to_stdout_and_wrong_usage_to_stderr(void **state) {
     for (unsigned i = 0; i < 3; i++) {
         char *out = good(spellings[i]);
         assert_int_equal(strncmp(out, "Usage: tuile COMMAND", 20), 0);
-        for (unsigned c = 0; c < 4; c++) { assert_non_null(strstr(out, commands[c])); }
+        for (unsigned c = 0; c < 4; c++) {
+            assert_non_null(strstr(out, commands[c]));
+        }
         free(out);
     }
     shell(&result, "%");
@@ -207,7 +209,8 @@ static void faces_of_scenes_known_by_hand(void **state) {
     (void)snprintf(text, sizeof text, "screen 4 3\ncamera ortho\nsample 1/2 1/2\nnear max # the other end\n%s", two);
     faces_of(text, "7 7 7 0\n7 7 7 9\n7 7 7 9\n");
     faces_of("screen 2 1\ncamera ortho\nsample 1/2 1/2\npoly 3 0,0,1 1,0,1 1,1,1 0,1,1\npoly 4 0,0,1 2,0,1 2,1,1 0,1,1\n", "3 4\n");
-    faces_of("screen 2 1\ncamera ortho\nsample 1/2 1/2\ntie last\npoly 3 0,0,1 1,0,1 1,1,1 0,1,1\npoly 4 0,0,1 2,0,1 2,1,1 0,1,1\n", "4 4\n");
+    faces_of("screen 2 1\ncamera ortho\nsample 1/2 1/2\ntie last\npoly 3 0,0,1 1,0,1 1,1,1 0,1,1\npoly 4 0,0,1 2,0,1 2,1,1 0,1,1\n",
+             "4 4\n");
     /* Sampled at whole points unless told otherwise; what lies on a right or lower edge is outside. */
     faces_of("screen 3 3\ncamera ortho\npoly 1 0,0,1 2,0,1 2,2,1 0,2,1\n", "1 1 0\n1 1 0\n0 0 0\n");
     faces_of("screen 3 3\ncamera ortho\nsample 1/2 1/2\npoly 1 1/2,0.5,1 5/2,0.5,1 2.5,5/2,1 0.5,5/2,1\n", "1 1 0\n1 1 0\n0 0 0\n");
@@ -224,7 +227,8 @@ static void faces_in_perspective_known_by_hand(void **state) {
     faces_of("screen 4 4\ncamera persp 2\nsample 1/2 1/2\npoly 3 -1,-1,2 1,-1,2 1,1,2 -1,1,2\npoly 5 -3/8,-3/8,3/2 3/8,-3/8,3/2 "
              "3/8,3/8,3/2 -3/8,3/8,3/2\n",
              "0 0 0 0\n0 5 3 0\n0 3 3 0\n0 0 0 0\n");
-    faces_of("screen 4 4\ncamera persp 2\nsample 1/2 1/2\npoly 4 -1,0,2 1,0,2 1,1,2 -1,1,2\n", "0 0 0 0\n0 0 0 0\n0 4 4 0\n0 0 0 0\n");
+    faces_of("screen 4 4\ncamera persp 2\nsample 1/2 1/2\npoly 4 -1,0,2 1,0,2 1,1,2 -1,1,2\n",
+             "0 0 0 0\n0 0 0 0\n0 4 4 0\n0 0 0 0\n");
     faces_of("screen 4 4\ncamera persp 2\nsample 1/2 1/2\nysign -1\npoly 4 -1,0,2 1,0,2 1,1,2 -1,1,2\n",
              "0 0 0 0\n0 4 4 0\n0 0 0 0\n0 0 0 0\n");
     faces_of("screen 4 4\ncamera persp 2\nsample 1/2 1/2\norigin 3 1\npoly 4 -1,-1,2 1,-1,2 1,1,2 -1,1,2\n",
@@ -440,7 +444,8 @@ static void models_that_cannot_be_drawn_are_refused_by_name(void **state) {
     for (unsigned i = 0; i < CHECK_COUNT(bad); i++) {
         char line[256];
         put(bad[i].name, bad[i].text);
-        (void)snprintf(line, sizeof line, "render @/%s --out @/picture.png --ids @/ids --report @/report --sheet @/sheet.png", bad[i].name);
+        (void)snprintf(line, sizeof line, "render @/%s --out @/picture.png --ids @/ids --report @/report --sheet @/sheet.png",
+                       bad[i].name);
         fails(line, bad[i].name, NULL);
         (void)snprintf(line, sizeof line, "mesh @/%s -o @/compiled.tuile", bad[i].name);
         fails(line, bad[i].name, NULL);
@@ -519,7 +524,9 @@ static void a_full_disk_is_an_error_of_every_output(void **state) {
     put("polygons", "0 0 16 0 16 16\n");
     fails("coverage 4 4 < @/polygons > /dev/full", "standard output", "space");
     static const char *const links[] = {"full.png", "full.ppm", "full.tuile", "full.c"};
-    for (unsigned i = 0; i < CHECK_COUNT(links); i++) { assert_int_equal(unlink(path_of(links[i])), 0); }
+    for (unsigned i = 0; i < CHECK_COUNT(links); i++) {
+        assert_int_equal(unlink(path_of(links[i])), 0);
+    }
 }
 
 static void an_error_in_a_later_frame_is_one_line_too(void **state) {
@@ -571,7 +578,8 @@ static void too_little_memory_says_how_much_would_do(void **state) {
     (void)snprintf(line, sizeof line, "render @/torus.obj --tile 240x4 --hash --memory %u", wanted - 1);
     fails(line, "--memory", "at least");
     (void)snprintf(line, sizeof line, "render @/torus.obj --tile 240x4 --hash --memory %u", wanted);
-    char *least = good(line), *plenty = good("render @/torus.obj --hash"), *some = good("render @/torus.obj --hash --memory 16K --tile 32x32");
+    char *least = good(line), *plenty = good("render @/torus.obj --hash"),
+         *some = good("render @/torus.obj --hash --memory 16K --tile 32x32");
     assert_string_equal(least, plenty);
     assert_string_equal(some, plenty);
     free(least);
@@ -583,7 +591,8 @@ static void too_little_memory_says_how_much_would_do(void **state) {
 
 static void frames_are_named_by_their_pattern(void **state) {
     (void)state;
-    good_silent("render @/cube.obj --frames 3 --out @/frame-%03d.png --ids @/ids-%d.txt --sheet @/sheet.png --report @/report.json");
+    good_silent(
+        "render @/cube.obj --frames 3 --out @/frame-%03d.png --ids @/ids-%d.txt --sheet @/sheet.png --report @/report.json");
     static const char *const names[] = {"frame-000.png", "frame-001.png", "frame-002.png", "ids-0.txt",
                                         "ids-1.txt",     "ids-2.txt",     "sheet.png",     "report.json"};
     for (unsigned i = 0; i < CHECK_COUNT(names); i++) {
@@ -602,7 +611,9 @@ static void frames_are_named_by_their_pattern(void **state) {
     sim_picture_free(&frames[0]);
     sim_picture_free(&frames[1]);
     sim_picture_free(&sheet);
-    for (unsigned i = 0; i < CHECK_COUNT(names); i++) { (void)unlink(path_of(names[i])); }
+    for (unsigned i = 0; i < CHECK_COUNT(names); i++) {
+        (void)unlink(path_of(names[i]));
+    }
 }
 
 static void ppm_and_png_show_the_same(void **state) {
@@ -661,12 +672,15 @@ static void the_hash_tells_pictures_apart_and_is_the_same_again(void **state) {
             if ((strcmp(out[i], out[k]) == 0) != alike) { fail_msg("%s and %s", lines[i], lines[k]); }
         }
     }
-    for (unsigned i = 0; i < CHECK_COUNT(lines); i++) { free(out[i]); }
+    for (unsigned i = 0; i < CHECK_COUNT(lines); i++) {
+        free(out[i]);
+    }
 }
 
 static void a_turn_by_spin_is_a_turn_of_the_model(void **state) {
     (void)state;
-    char *four = good("render @/octahedron.obj --frames 4 --hash"), *again = good("render @/octahedron.obj --frames 4 --spin 90 --hash");
+    char *four = good("render @/octahedron.obj --frames 4 --hash"),
+         *again = good("render @/octahedron.obj --frames 4 --spin 90 --hash");
     char *back = good("render @/octahedron.obj --frames 5 --spin 90 --hash");
     assert_string_equal(four, again);
     assert_int_equal(strncmp(back, four, strlen(four)), 0);
@@ -711,7 +725,9 @@ static void ids_of_a_cube_are_the_numbers_of_its_lines(void **state) {
         for (unsigned y = 0; y < 320; y++) {
             for (unsigned x = 0; x < 240; x++) {
                 const bool inside = x >= 40 && x < 200 && y >= 80 && y < 240;
-                if (ids[y * 240 + x] != (inside ? side + 1 : 0)) { fail_msg("side %u: face %u at %u,%u", side, ids[y * 240 + x], x, y); }
+                if (ids[y * 240 + x] != (inside ? side + 1 : 0)) {
+                    fail_msg("side %u: face %u at %u,%u", side, ids[y * 240 + x], x, y);
+                }
             }
         }
         free(ids);
@@ -753,7 +769,9 @@ static void picking_tells_face_and_place(void **state) {
 static const char *json_value(const char *at, int depth);
 
 static const char *json_blank(const char *at) {
-    while (*at == ' ' || *at == '\n' || *at == '\t' || *at == '\r') { at++; }
+    while (*at == ' ' || *at == '\n' || *at == '\t' || *at == '\r') {
+        at++;
+    }
     return at;
 }
 
@@ -769,10 +787,14 @@ static const char *json_string(const char *at) {
 static const char *json_number(const char *at) {
     at += *at == '-';
     if (!isdigit((unsigned char)*at) || (*at == '0' && isdigit((unsigned char)at[1]))) { return NULL; }
-    while (isdigit((unsigned char)*at)) { at++; }
+    while (isdigit((unsigned char)*at)) {
+        at++;
+    }
     if (*at == '.') {
         if (!isdigit((unsigned char)*++at)) { return NULL; }
-        while (isdigit((unsigned char)*at)) { at++; }
+        while (isdigit((unsigned char)*at)) {
+            at++;
+        }
     }
     return at;
 }

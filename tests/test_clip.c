@@ -74,13 +74,9 @@ static void check_clip(const int16_t (*q)[3], unsigned count, const int32_t (*ex
         for (; same < got; same++) {
             const vertex_t *p = &out[(same + turn) % got];
             /* halving ends within a unit of the fine grid, so what is cut may be snapped to either side of a tie */
-            if (abs(p->x - expected[same][0]) > 1 || abs(p->y - expected[same][1]) > 1) {
-                break;
-            }
+            if (abs(p->x - expected[same][0]) > 1 || abs(p->y - expected[same][1]) > 1) { break; }
         }
-        if (same == got) {
-            return;
-        }
+        if (same == got) { return; }
     }
     for (int i = 0; i < got; i++) {
         print_message("(%d, %d) expected (%d, %d)\n", out[i].x, out[i].y, (int)expected[i][0], (int)expected[i][1]);
@@ -246,9 +242,7 @@ static void exact_cut(shape_t *s, const real_t a[4]) {
     for (int i = 0; i < s->count; i++) {
         const real_t *p = s->p[i], *n = s->p[(i + 1) % s->count];
         const real_t dp = a[0] * p[0] + a[1] * p[1] + a[2] * p[2] + a[3], dn = a[0] * n[0] + a[1] * n[1] + a[2] * n[2] + a[3];
-        if (dp >= 0) {
-            memcpy(out.p[out.count++], p, sizeof out.p[0]);
-        }
+        if (dp >= 0) { memcpy(out.p[out.count++], p, sizeof out.p[0]); }
         if ((dp >= 0) != (dn >= 0)) {
             for (int k = 0; k < 3; k++) {
                 out.p[out.count][k] = (p[k] * dn - n[k] * dp) / (dn - dp);
@@ -300,9 +294,7 @@ static bool shape_contains(const shape_t *s, real_t x, real_t y) {
     bool inside = false;
     for (int i = 0; i < s->count; i++) {
         const real_t *a = s->p[i], *b = s->p[(i + 1) % s->count];
-        if ((a[1] <= y) != (b[1] <= y) && a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) <= x) {
-            inside = !inside;
-        }
+        if ((a[1] <= y) != (b[1] <= y) && a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) <= x) { inside = !inside; }
     }
     return inside;
 }
@@ -326,9 +318,7 @@ static bool random_view(random_source_t *random, view_t *v, int16_t (*q)[3], int
         for (int j = 0; j < 3; j++) {
             q[i][j] = (int16_t)random_between(random, -reach, reach);
         }
-        if (ground) {
-            q[i][1] = 0;
-        }
+        if (ground) { q[i][1] = 0; }
     }
     v->model.step.exponent = reach == 3 ? -2 : 0;
     for (int i = 0; i < count && reach == 3; i++) {
@@ -342,9 +332,7 @@ static bool random_view(random_source_t *random, view_t *v, int16_t (*q)[3], int
                              random_between(random, -65536, 65536)};
     const q16_16_t at[3] = {random_between(random, -5 * 65536, 5 * 65536), random_between(random, -5 * 65536, 5 * 65536),
                             random_between(random, -5 * 65536, 5 * 65536)};
-    if (tuile_camera_look_at(camera, eye, at, (const q16_16_t[3]){0, 65536, 0}) != TUILE_OK) {
-        return false;
-    }
+    if (tuile_camera_look_at(camera, eye, at, (const q16_16_t[3]){0, 65536, 0}) != TUILE_OK) { return false; }
     camera->focal_x = random_between(random, 20 * 65536, 100 * 65536);
     camera->focal_y = random_between(random, 20 * 65536, 100 * 65536);
     camera->centre_x = TUILE_Q16(24);
@@ -365,9 +353,7 @@ static void clipped_triangles_keep_their_shape_in_the_window(void **state) {
         vertex_t vertices[3], out[POINTS_MAX];
         shape_t exact, got;
         static const unsigned corners[3] = {0, 1, 2};
-        if (!random_view(&random, &v, q, 3)) {
-            continue;
-        }
+        if (!random_view(&random, &v, q, 3)) { continue; }
         const int count = clip(&v, (const int16_t(*)[3])q, 3, vertices, out, POINTS_MAX);
         assert_true(count >= 0 && count <= 9);
         exact_clip(&v, (const int16_t(*)[3])q, corners, 3, 8, &exact);
@@ -381,9 +367,7 @@ static void clipped_triangles_keep_their_shape_in_the_window(void **state) {
                 const real_t px = x + 0.5L, py = y + 0.5L;
                 const bool inside = shape_contains(&exact, px, py);
                 covers |= inside;
-                if (inside == shape_contains(&got, px, py)) {
-                    continue;
-                }
+                if (inside == shape_contains(&got, px, py)) { continue; }
                 const real_t away = distance_to_shape(&exact, px, py);
                 worst = fmaxl(worst, away);
                 assert_true(away <= 1 / 16.0L);
@@ -394,9 +378,7 @@ static void clipped_triangles_keep_their_shape_in_the_window(void **state) {
             const real_t *a = exact.p[i], *b = exact.p[(i + 1) % exact.count];
             for (int t = 1; t < 8; t++) {
                 const real_t x = a[0] + (b[0] - a[0]) * t / 8, y = a[1] + (b[1] - a[1]) * t / 8;
-                if (x < 0 || y < 0 || x > v.width || y > v.height) {
-                    continue;
-                }
+                if (x < 0 || y < 0 || x > v.width || y > v.height) { continue; }
                 const real_t away = distance_to_shape(&got, x, y);
                 worst = fmaxl(worst, away);
                 assert_true(away <= 1 / 16.0L);
@@ -421,13 +403,9 @@ static void a_shared_edge_is_cut_at_one_point(void **state) {
         vertex_t vertices[4], out[2][POINTS_MAX];
         static const uint8_t faces[2][3] = {{0, 1, 2}, {1, 0, 3}};
         int count[2];
-        if (!random_view(&random, &v, q, 4)) {
-            continue;
-        }
+        if (!random_view(&random, &v, q, 4)) { continue; }
         (void)vertex_stage(&v.transform, q[0], NULL, 4, vertices);
-        if (vertices[0].x == VERTEX_OUTSIDE || vertices[1].x != VERTEX_OUTSIDE) {
-            continue;
-        }
+        if (vertices[0].x == VERTEX_OUTSIDE || vertices[1].x != VERTEX_OUTSIDE) { continue; }
         for (int f = 0; f < 2; f++) {
             const clip_face_t face = {q[0], vertices, faces[f], 3};
             count[f] = clip_polygon(&v.transform, &face, out[f], POINTS_MAX);
@@ -438,18 +416,12 @@ static void a_shared_edge_is_cut_at_one_point(void **state) {
         for (int f = 0; f < 2; f++) {
             int at = -1, times = 0;
             for (int i = 0; i < count[f]; i++) {
-                if (memcmp(&out[f][i], &vertices[0], sizeof vertices[0]) == 0) {
-                    at = i, times++;
-                }
+                if (memcmp(&out[f][i], &vertices[0], sizeof vertices[0]) == 0) { at = i, times++; }
             }
             found &= times == 1;
-            if (times == 1) {
-                cut[f] = out[f][(at + (f ? count[f] - 1 : 1)) % count[f]];
-            }
+            if (times == 1) { cut[f] = out[f][(at + (f ? count[f] - 1 : 1)) % count[f]]; }
         }
-        if (!found) {
-            continue;
-        }
+        if (!found) { continue; }
         assert_memory_equal(&cut[0], &cut[1], sizeof cut[0]);
         shared++;
     }
@@ -476,18 +448,14 @@ static void no_crack_and_no_overlap_along_a_wide_common_edge(void **state) {
         static const unsigned ring_of_both[4] = {0, 3, 1, 2}, corners[2][3] = {{0, 1, 2}, {1, 0, 3}};
         shape_t both;
         uint8_t hits[48 * 36] = {0};
-        if (!random_view(&random, &v, q, 4)) {
-            continue;
-        }
+        if (!random_view(&random, &v, q, 4)) { continue; }
         bool fits = true;
         for (int j = 0; j < 3; j++) {
             const int32_t p = q[0][j] + q[1][j] - q[2][j];
             fits &= abs(p) < 32768;
             q[3][j] = (int16_t)p;
         }
-        if (!fits) {
-            continue;
-        }
+        if (!fits) { continue; }
         (void)vertex_stage(&v.transform, q[0], NULL, 4, vertices);
         for (int f = 0; f < 2; f++) {
             vertex_t out[POINTS_MAX];
@@ -496,17 +464,13 @@ static void no_crack_and_no_overlap_along_a_wide_common_edge(void **state) {
             const int count = clip_polygon(&v.transform, &face, out, POINTS_MAX);
             const polygon_ring_t ring = {out, NULL, NULL, (uint32_t)count};
             polygon_chain_t chains[8];
-            if (count > 0) {
-                polygon_coverage(&ring, 48, 36, chains, 8, mark, hits);
-            }
+            if (count > 0) { polygon_coverage(&ring, 48, 36, chains, 8, mark, hits); }
         }
         /* The quadrilateral is a parallelogram, so its exact part is one convex shape. */
         exact_clip(&v, (const int16_t(*)[3])q, ring_of_both, 4, 8, &both);
         for (int i = 0; i < 48 * 36; i++) {
             const real_t x = i % 48 + 0.5L, y = i / 48 + 0.5L;
-            if (hits[i] == 1 || !shape_contains(&both, x, y) || distance_to_shape(&both, x, y) <= 1 / 8.0L) {
-                continue;
-            }
+            if (hits[i] == 1 || !shape_contains(&both, x, y) || distance_to_shape(&both, x, y) <= 1 / 8.0L) { continue; }
             assert_int_equal(hits[i], 1);
         }
         for (int i = 0; i < 48 * 36; i++) {

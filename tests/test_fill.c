@@ -57,9 +57,7 @@ static int32_t triangle_area(const vertex_t *a, const vertex_t *b, const vertex_
 /* Turns a face of three corners into what triangle_start asks for. False when it has no area. */
 static bool face_to_triangle(face_t *face) {
     const int32_t area = triangle_area(corner(face, 0), corner(face, 1), corner(face, 2));
-    if (area == 0) {
-        return false;
-    }
+    if (area == 0) { return false; }
     if (area < 0) {
         const uint8_t swap = face->corners[1];
         face->corners[1] = face->corners[2];
@@ -81,9 +79,7 @@ static bool face_start(const face_t *face, face_state_t *state, int32_t row, spa
         bottom = corner(face, i)->y > bottom ? corner(face, i)->y : bottom;
         top = corner(face, i)->y < top ? corner(face, i)->y : top;
     }
-    if (edge_row(bottom) <= row || edge_row(bottom) <= edge_row(top)) {
-        return false;
-    }
+    if (edge_row(bottom) <= row || edge_row(bottom) <= edge_row(top)) { return false; }
     memset(state, 0xa5, sizeof *state);
     if (face->as_triangle) {
         const vertex_t *v0 = corner(face, 0), *v1 = corner(face, 1), *v2 = corner(face, 2);
@@ -122,9 +118,7 @@ static void face_fill_tile(const face_t *face, face_state_t *state, canvas_t *ca
     memset(colours, 0, sizeof colours[0] * (size_t)(stride * height));
     const raster_tile_t tile = {depth, kind == SPAN_IDS ? (void *)ids : colours, left, top, left + width, top + height, stride};
     if (face->as_triangle) {
-        if (state->triangle.row >= tile.bottom || state->triangle.row >= state->triangle.head.row_end) {
-            return;
-        }
+        if (state->triangle.row >= tile.bottom || state->triangle.row >= state->triangle.head.row_end) { return; }
         triangle_fill(&state->triangle, &tile, kind, false, ramp);
     } else {
         const polygon_ring_t ring = face_ring(face);
@@ -157,13 +151,9 @@ static void face_draw_kind(const face_t *face, canvas_t *canvas, int32_t tile_wi
             started = face_start(face, &state, top, kind);
         } else if (policy == POLICY_SKIP) {
             started = face_start(face, &state, INT16_MIN, kind);
-            if (started) {
-                face_skip(face, &state, top);
-            }
+            if (started) { face_skip(face, &state, top); }
         }
-        if (!started) {
-            continue;
-        }
+        if (!started) { continue; }
         for (int32_t x = 0; x < canvas->width; x += tile_width) {
             const int32_t width = canvas->width - x < tile_width ? canvas->width - x : tile_width;
             face_state_t copy = state;
@@ -206,9 +196,7 @@ static void check_picture(const char *what, const int32_t (*points)[2], uint32_t
         }
         face_t face = face_of_points((const int32_t(*)[2])turned, count);
         for (int as_triangle = 0; as_triangle < (count == 3 ? 2 : 1); as_triangle++) {
-            if (as_triangle && !face_to_triangle(&face)) {
-                break;
-            }
+            if (as_triangle && !face_to_triangle(&face)) { break; }
             for (int32_t tile = 1; tile <= width; tile += 2) {
                 for (int policy = 0; policy < POLICY_COUNT; policy++) {
                     canvas_t canvas = {.width = width, .height = height};
@@ -216,9 +204,7 @@ static void check_picture(const char *what, const int32_t (*points)[2], uint32_t
                     face_draw_kind(&face, &canvas, tile, tile, (policy_t)policy, (span_kind_t)((uint32_t)tile / 2 % 3));
                     ascii_clear(&picture, width, height);
                     for (int32_t at = 0; at < width * height; at++) {
-                        if (canvas.ids[at]) {
-                            ascii_hit(&picture, at % width, at / width);
-                        }
+                        if (canvas.ids[at]) { ascii_hit(&picture, at % width, at / width); }
                     }
                     assert_true(ascii_same(&picture, rows, what));
                 }
@@ -424,9 +410,7 @@ static void worked_example_2_spans_of_all_rows(void **state) {
         for (int row = 0; row < 14; row++) {
             for (int k = 0; k < 3 && example_2_rows[row][0][k] >= 0; k++) {
                 const int32_t left = example_2_rows[row][0][k], right = example_2_rows[row][1][k];
-                if (left > right) {
-                    continue;
-                } /* empty */
+                if (left > right) { continue; } /* empty */
                 assert_true(at < spans.count);
                 assert_int_equal(spans.row[at], row);
                 assert_int_equal(spans.first[at], left);
@@ -514,9 +498,7 @@ static void worked_example_2_edges_and_roles(void **state) {
         for (int side = 0; side < 2; side++) {
             for (unsigned k = 0; k < 3; k++) {
                 assert_int_equal(k < count[y][side], example_2_rows[y][side][k] >= 0);
-                if (k < count[y][side]) {
-                    assert_int_equal(found[y][side][k], example_2_rows[y][side][k]);
-                }
+                if (k < count[y][side]) { assert_int_equal(found[y][side][k], example_2_rows[y][side][k]); }
             }
         }
     }
@@ -543,9 +525,7 @@ static void stepper_is_exact_on_all_short_sides(void **state) {
                 const int32_t x0 = (phase & 15) - 8, y0 = (phase >> 4) - 8;
                 const int32_t first = edge_row(y0), end = edge_row(y0 + dy);
                 edge_t edge, wide;
-                if (first >= end) {
-                    continue;
-                }
+                if (first >= end) { continue; }
                 short_edge_t brief = short_edge_start(x0, y0, x0 + dx, y0 + dy, first);
                 edge_start(&edge, x0, y0, x0 + dx, y0 + dy, first);
                 edge_start_wide(&wide, x0, y0, x0 + dx, y0 + dy, first);
@@ -575,9 +555,7 @@ static void short_stepper_is_exact_to_its_bounds(void **state) {
         const int32_t x0 = random_between(&random, INT16_MIN + 1 + SHORT_SIDE, INT16_MAX - 16 - SHORT_SIDE),
                       y0 = random_between(&random, -16000, 16000);
         const int32_t first = edge_row(y0), end = edge_row(y0 + dy);
-        if (first >= end) {
-            continue;
-        }
+        if (first >= end) { continue; }
         const int32_t begin = random_between(&random, first, end - 1);
         short_edge_t edge = short_edge_start(x0, y0, x0 + dx, y0 + dy, begin);
         for (int32_t row = begin; row < end; row++, rows++) {
@@ -604,9 +582,7 @@ static void stepper_is_exact_on_long_sides(void **state) {
             y1 = swap;
         }
         const int32_t first = edge_row(y0), end = edge_row(y1);
-        if (first >= end) {
-            continue;
-        }
+        if (first >= end) { continue; }
         const int32_t start = random_between(&random, first, end - 1), stop = start + 400 < end ? start + 400 : end;
         edge_t edge, narrow;
         edge_start_wide(&edge, x0, y0, x1, y1, start);
@@ -647,12 +623,8 @@ static void random_points(random_source_t *random, int32_t (*points)[2], uint32_
             break;
         }
         case KIND_DEGENERATE: /* all alike, or on one row or column, now and then something else */
-            if (!random_one_in(random, 4)) {
-                x = cx;
-            }
-            if (!random_one_in(random, 3)) {
-                y = cy;
-            }
+            if (!random_one_in(random, 4)) { x = cx; }
+            if (!random_one_in(random, 3)) { y = cy; }
             break;
         case KIND_OFF: x += random_one_in(random, 2) ? limit / 2 : 0; break;
         case KIND_WALK:
@@ -747,9 +719,7 @@ static void check_frame_coverage(uint64_t seed, uint32_t least, uint32_t most, i
         for (uint32_t i = 0; i < count; i++) {
             face.vertices[i].depth_light = (uint32_t)random_between(&random, 512, 65529 * 256) << 8;
         }
-        if (count == 3 && !face_to_triangle(&face)) {
-            continue;
-        }
+        if (count == 3 && !face_to_triangle(&face)) { continue; }
         assert_int_equal(coverage_reference(&expected, (const int32_t(*)[2])points, count, size, size), 0);
         if (count > 3) {
             const polygon_ring_t ring = face_ring(&face);
@@ -774,9 +744,7 @@ static void check_frame_coverage(uint64_t seed, uint32_t least, uint32_t most, i
             assert_int_equal(whole.ids[i], 0);
         }
     }
-    if (most > 20) {
-        assert_true(stateless > (unsigned)rounds / 100);
-    }
+    if (most > 20) { assert_true(stateless > (unsigned)rounds / 100); }
     coverage_reference_free(&expected);
 }
 
@@ -838,18 +806,10 @@ static void every_pixel_of_a_net_is_met_once(void **state) {
         for (int32_t j = 0; j <= cells; j++) {
             for (int32_t i = 0; i <= cells; i++) {
                 int32_t x = 16 * size * i / cells, y = 16 * size * j / cells;
-                if (i > 0 && i < cells) {
-                    x += random_between(&random, -slack, slack);
-                }
-                if (j > 0 && j < cells) {
-                    y += random_between(&random, -slack, slack);
-                }
-                if (ties && slack > 16 && i > 0 && i < cells) {
-                    x = CENTRE((x - 8) >> 4);
-                }
-                if (ties && slack > 16 && j > 0 && j < cells) {
-                    y = CENTRE((y - 8) >> 4);
-                }
+                if (i > 0 && i < cells) { x += random_between(&random, -slack, slack); }
+                if (j > 0 && j < cells) { y += random_between(&random, -slack, slack); }
+                if (ties && slack > 16 && i > 0 && i < cells) { x = CENTRE((x - 8) >> 4); }
+                if (ties && slack > 16 && j > 0 && j < cells) { y = CENTRE((y - 8) >> 4); }
                 net[j][i][0] = x;
                 net[j][i][1] = y;
             }
@@ -902,9 +862,7 @@ static void a_fan_is_odd_where_its_ring_covers(void **state) {
                                 random_between(&random, -50, 200)};
         for (uint32_t i = 0; i < count; i++) {
             face_t face = face_of_triangle(hub, points[i], points[(i + 1) % count]);
-            if (face_to_triangle(&face)) {
-                count_hits(&face, hits, SIZE);
-            }
+            if (face_to_triangle(&face)) { count_hits(&face, hits, SIZE); }
         }
         for (int32_t i = 0; i < SIZE * SIZE; i++) {
             assert_int_equal(hits[i] & 1, coverage_reference_pixel((const int32_t(*)[2])points, count, i % SIZE, i / SIZE));
@@ -955,22 +913,16 @@ static void measure_triangle(const vertex_t v[3], int32_t left, int32_t top, int
         face.vertices[i] = v[i];
         face.corners[i] = (uint8_t)i;
     }
-    if (!face_to_triangle(&face)) {
-        return;
-    }
+    if (!face_to_triangle(&face)) { return; }
     const vertex_t t[3] = {*corner(&face, 0), *corner(&face, 1), *corner(&face, 2)};
     const int32_t low = t[1].y > t[2].y ? t[1].y : t[2].y;
-    if (edge_row(low) <= top || edge_row(t[0].y) >= edge_row(low)) {
-        return;
-    }
+    if (edge_row(low) <= top || edge_row(t[0].y) >= edge_row(low)) { return; }
     memset(depth, 0, sizeof depth);
     memset(colour, 0xff, sizeof colour);
     triangle_t state;
     triangle_start(&state, &t[0], &t[1], &t[2], top, true);
     const raster_tile_t tile = {depth, colour, left, top, left + width, top + height, width};
-    if (state.row >= tile.bottom) {
-        return;
-    }
+    if (state.row >= tile.bottom) { return; }
     triangle_fill(&state, &tile, SPAN_GOURAUD, false, guarded_ramp());
 
     int32_t z[3], l[3], spread = 0, least = 0, most = 0;
@@ -985,9 +937,7 @@ static void measure_triangle(const vertex_t v[3], int32_t left, int32_t top, int
     for (int32_t y = 0; y < height; y++) {
         for (int32_t x = 0; x < width; x++) {
             const int32_t at = y * width + x;
-            if (colour[at] == 0xffff) {
-                continue;
-            }
+            if (colour[at] == 0xffff) { continue; }
             int64_t denominator;
             int128_t numerator = plane_numerator(t, z, left + x, top + y, &denominator);
             const double error = fabs(
@@ -1103,27 +1053,19 @@ static void light_does_not_depend_on_the_way_to_a_row(void **state) {
         for (int i = 0; i < 3; i++) {
             face.vertices[i].depth_light = random_depth_light(&random, 512, 65529 * 256);
         }
-        if (!face_to_triangle(&face)) {
-            continue;
-        }
+        if (!face_to_triangle(&face)) { continue; }
         const vertex_t *v0 = corner(&face, 0), *v1 = corner(&face, 1), *v2 = corner(&face, 2);
         const int32_t end = edge_row(v1->y > v2->y ? v1->y : v2->y);
         const int32_t begin = edge_row(v0->y), split = random_between(&random, 0, SIZE - 1),
                       column = random_between(&random, 1, SIZE - 1);
-        if (end <= 0 || begin >= end || begin >= SIZE) {
-            continue;
-        }
+        if (end <= 0 || begin >= end || begin >= SIZE) { continue; }
         triangle_t whole, part;
         const raster_tile_t tile = {depth[0], colour[0], 0, 0, SIZE, SIZE, SIZE};
         triangle_start(&whole, v0, v1, v2, 0, true);
-        if (whole.row < SIZE) {
-            triangle_fill(&whole, &tile, SPAN_GOURAUD, false, guarded_ramp());
-        }
+        if (whole.row < SIZE) { triangle_fill(&whole, &tile, SPAN_GOURAUD, false, guarded_ramp()); }
         for (int lower = 0; lower < 2; lower++) {
             const int32_t top = lower ? split : 0, bottom = lower ? SIZE : split;
-            if (top >= bottom || end <= top) {
-                continue;
-            }
+            if (top >= bottom || end <= top) { continue; }
             for (int right = 0; right < 2; right++) {
                 const int32_t x0 = right ? column : 0, x1 = right ? SIZE : column;
                 if (lower && random_one_in(&random, 2)) {
@@ -1133,9 +1075,7 @@ static void light_does_not_depend_on_the_way_to_a_row(void **state) {
                     triangle_skip(&part, top);
                 }
                 const raster_tile_t quarter = {depth[1] + top * SIZE + x0, colour[1] + top * SIZE + x0, x0, top, x1, bottom, SIZE};
-                if (part.row >= bottom) {
-                    continue;
-                }
+                if (part.row >= bottom) { continue; }
                 triangle_fill(&part, &quarter, SPAN_GOURAUD, false, guarded_ramp());
             }
         }
@@ -1198,9 +1138,7 @@ static void depth_of_polygons_stays_near_their_plane(void **state) {
             low = z < low ? z : low;
             high = z > high ? z : high;
         }
-        if (high - low > 65529 * 256 - 512) {
-            continue;
-        }
+        if (high - low > 65529 * 256 - 512) { continue; }
         const int64_t base = random_between(&random, 512, (int32_t)(65529 * 256 - (high - low))) - low;
         for (uint32_t i = 0; i < count; i++) {
             face.vertices[i].depth_light = (uint32_t)(base + gx * points[i][0] + gy * points[i][1]) << 8;
@@ -1208,9 +1146,7 @@ static void depth_of_polygons_stays_near_their_plane(void **state) {
         canvas.width = canvas.height = SIZE;
         face_draw(&face, &canvas, SIZE, SIZE, POLICY_CARRY);
         for (int32_t i = 0; i < SIZE * SIZE; i++) {
-            if (!canvas.ids[i]) {
-                continue;
-            }
+            if (!canvas.ids[i]) { continue; }
             const double exact = (double)(base + gx * CENTRE(i % SIZE) + gy * CENTRE(i / SIZE)) / 256;
             const double error = fabs(canvas.depth[i] - exact);
             worst = error > worst ? error : worst;
@@ -1245,9 +1181,7 @@ static void depth_of_uneven_polygons_stays_in_their_range(void **state) {
         canvas.width = canvas.height = SIZE;
         face_draw(&face, &canvas, SIZE, SIZE, (policy_t)(round % POLICY_COUNT));
         for (int32_t i = 0; i < SIZE * SIZE; i++) {
-            if (!canvas.ids[i]) {
-                continue;
-            }
+            if (!canvas.ids[i]) { continue; }
             assert_true(canvas.depth[i] >= low && canvas.depth[i] <= high);
             pixels++;
         }

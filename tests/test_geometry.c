@@ -67,9 +67,7 @@ static void leading_zeros_and_shifts(void **state) {
     for (unsigned bit = 0; bit < 64; bit++) {
         assert_int_equal(fixed_clz64(UINT64_C(1) << bit), 63 - bit);
         assert_int_equal(fixed_clz64(UINT64_MAX >> bit), bit);
-        if (bit < 32) {
-            assert_int_equal(fixed_clz32(UINT32_MAX >> bit), bit);
-        }
+        if (bit < 32) { assert_int_equal(fixed_clz32(UINT32_MAX >> bit), bit); }
         assert_true(fixed_shift_left64(-1, bit) == INT64_MIN >> (63 - bit));
         assert_true(fixed_shift_left64(0, bit) == 0);
     }
@@ -89,22 +87,16 @@ static void products_are_floored(void **state) {
         const int64_t a = random_one_in(&random, 4) ? corners64[random_between(&random, 0, CHECK_COUNT(corners64) - 1)]
                                                     : random_any_size(&random, 62);
         int32_t b = (int32_t)random_any_size(&random, 31);
-        if (random_one_in(&random, 4)) {
-            b = random_one_in(&random, 2) ? INT32_MAX : -INT32_MAX;
-        }
+        if (random_one_in(&random, 4)) { b = random_one_in(&random, 2) ? INT32_MAX : -INT32_MAX; }
         const unsigned shift = (unsigned)random_between(&random, 0, 62);
         const int128_t exact = floor_shift((int128_t)a * b, shift);
-        if (exact >= (int128_t)1 << 62 || exact < -((int128_t)1 << 62)) {
-            continue;
-        }
+        if (exact >= (int128_t)1 << 62 || exact < -((int128_t)1 << 62)) { continue; }
         assert_true(fixed_mul_shift(a, b, shift) == exact);
     }
 }
 
 static void multiply_by_the_least_number(void) {
-    if (fixed_mul_shift(-1, INT32_MIN, 0) != INT64_C(1) << 31) {
-        abort();
-    }
+    if (fixed_mul_shift(-1, INT32_MIN, 0) != INT64_C(1) << 31) { abort(); }
 }
 
 static void mul_shift_of_int32_min_overflows_in_between(void **state) {
@@ -176,9 +168,7 @@ static void assert_normal(wide_t a) {
 
 static wide_t random_wide(random_source_t *random) {
     int64_t m = (int64_t)(random_bits(random) >> 3) | INT64_C(1) << 61;
-    if (random_one_in(random, 3)) {
-        m = (INT64_C(1) << 61) + (int64_t)(random_bits(random) >> (random_between(random, 20, 63)));
-    }
+    if (random_one_in(random, 3)) { m = (INT64_C(1) << 61) + (int64_t)(random_bits(random) >> (random_between(random, 20, 63))); }
     if (random_one_in(random, 4)) {
         m = (INT64_C(1) << 62) - 1 - (int64_t)(random_bits(random) >> (random_between(random, 20, 63)));
     }
@@ -215,9 +205,7 @@ static void wide_numbers_are_normalised_and_keep_their_value(void **state) {
                                                : floor_shift(a.mantissa, (unsigned)(5 - a.exponent));
         const int128_t off = value - m;
         assert_true(off >= -1 && off <= 1);
-        if (m > -(INT64_C(1) << 62) && m < INT64_C(1) << 62) {
-            assert_true(off == 0);
-        }
+        if (m > -(INT64_C(1) << 62) && m < INT64_C(1) << 62) { assert_true(off == 0); }
         const int32_t bits = wide_bits(a) - 5;
         const uint128_t magnitude = (uint128_t)(m < 0 ? -(int128_t)m : m);
         if (m != INT64_MIN && off == 0) {
@@ -249,12 +237,8 @@ static void wide_sums_are_as_near_as_they_say(void **state) {
     (void)state;
     for (int round = 0; round < CHECK_ROUNDS(1000000); round++) {
         wide_t a = random_wide(&random), b = random_wide(&random);
-        if (random_one_in(&random, 3)) {
-            b.exponent = a.exponent;
-        }
-        if (abs(a.exponent - b.exponent) > 62) {
-            continue;
-        }
+        if (random_one_in(&random, 3)) { b.exponent = a.exponent; }
+        if (abs(a.exponent - b.exponent) > 62) { continue; }
         const wide_t s = wide_add(a, b);
         assert_normal(s);
         const int32_t low = a.exponent < b.exponent ? a.exponent : b.exponent;
@@ -279,9 +263,7 @@ static void check_reciprocals(int sign, const char *what) {
     long double worst = 0;
     for (int round = 0; round < CHECK_ROUNDS(1000000); round++) {
         wide_t a = random_wide(&random);
-        if (wide_sign(a) != sign) {
-            a = wide_negate(a);
-        }
+        if (wide_sign(a) != sign) { a = wide_negate(a); }
         const wide_t r = wide_reciprocal(a);
         assert_normal(r);
         const long double product = ldexpl((long double)a.mantissa * (long double)r.mantissa, a.exponent + r.exponent);
@@ -347,12 +329,8 @@ static void unit_vectors_are_within_a_few_units(void **state) {
         for (int i = 0; i < 3; i++) {
             v[i] = random_any_size(&random, bits);
         }
-        if (random_one_in(&random, 50)) {
-            v[0] = v[1] = v[2] = random_one_in(&random, 2) ? INT64_C(1) << 62 : -(INT64_C(1) << 62);
-        }
-        if (v[0] == 0 && v[1] == 0 && v[2] == 0) {
-            continue;
-        }
+        if (random_one_in(&random, 50)) { v[0] = v[1] = v[2] = random_one_in(&random, 2) ? INT64_C(1) << 62 : -(INT64_C(1) << 62); }
+        if (v[0] == 0 && v[1] == 0 && v[2] == 0) { continue; }
         assert_true(vector_normalise(unit, v));
         const long double length = sqrtl((long double)v[0] * (long double)v[0] + (long double)v[1] * (long double)v[1] +
                                          (long double)v[2] * (long double)v[2]);
@@ -432,9 +410,7 @@ static void focal_lengths(void **state) {
 }
 
 static void narrowest_field_of_view(void) {
-    if (tuile_focal_px(1, 1) < 0 || tuile_focal_px(1, 1024) != 0) {
-        abort();
-    }
+    if (tuile_focal_px(1, 1) < 0 || tuile_focal_px(1, 1024) != 0) { abort(); }
 }
 
 static void the_narrowest_field_of_view_does_not_divide_by_zero(void **state) {
@@ -502,9 +478,7 @@ static void looking_at_a_point(void **state) {
             at[i] = (q16_16_t)random_any_size(&random, 31);
             upward[i] = (q16_16_t)random_any_size(&random, 31);
         }
-        if (tuile_camera_look_at(&camera, eye, at, upward) != TUILE_OK) {
-            continue;
-        }
+        if (tuile_camera_look_at(&camera, eye, at, upward) != TUILE_OK) { continue; }
         long double view[3], forward = 0;
         for (int i = 0; i < 3; i++) {
             view[i] = 0;
@@ -609,9 +583,7 @@ static bool stand(set_up_t *s, const int16_t q[3], const long double wanted[3]) 
         for (int j = 0; j < 3; j++) {
             move += (long double)s->scene.camera.rotation[j][i] * 0x1p-30L * (wanted[j] - view[j]);
         }
-        if (fabsl(move) > 32000) {
-            return false;
-        }
+        if (fabsl(move) > 32000) { return false; }
         s->instance.pose.translation[i] = (q16_16_t)(move * 65536);
     }
     return true;
@@ -635,9 +607,7 @@ static void aim(const set_up_t *s, const long double view[3], int16_t q[3]) {
         }
         at = ldexpl(at / pose->scale.mantissa / s->model.step.mantissa, -pose->scale.exponent - s->model.step.exponent) -
              s->model.offset[i];
-        if (fabsl(at) < 32767) {
-            q[i] = (int16_t)lroundl(at);
-        }
+        if (fabsl(at) < 32767) { q[i] = (int16_t)lroundl(at); }
     }
 }
 
@@ -689,9 +659,7 @@ static void vertices_land_within_their_error(void **state) {
             steps - s.model.step.exponent - (int32_t)log2((double)s.model.step.mantissa * s.instance.pose.scale.mantissa);
         s.model.radius = 57000;
         for (int i = 0; i < 3; i++) {
-            if (random_one_in(&random, 3)) {
-                s.model.offset[i] = (int32_t)random_any_size(&random, 30);
-            }
+            if (random_one_in(&random, 3)) { s.model.offset[i] = (int32_t)random_any_size(&random, 30); }
         }
         random_rotation(&random, s.instance.pose.rotation);
         random_rotation(&random, s.scene.camera.rotation);
@@ -711,19 +679,13 @@ static void vertices_land_within_their_error(void **state) {
         if (ortho) {
             camera->projection = TUILE_ORTHOGRAPHIC;
             const long double px = (long double)(s.width * random_real(&random, 0.2, 3)) / size;
-            if (px > 15000 || px < 0.01L) {
-                continue;
-            }
+            if (px > 15000 || px < 0.01L) { continue; }
             camera->focal_x = (q16_16_t)(px * 65536);
             camera->focal_y = (q16_16_t)(px * 65536 * (long double)random_real(&random, 0.5, 2));
-            if (random_one_in(&random, 2)) {
-                camera->near = -camera->near;
-            }
+            if (random_one_in(&random, 2)) { camera->near = -camera->near; }
         }
         const long double distance = fminl(far, near + size * (long double)random_real(&random, 0, 3));
-        if (!stand(&s, (const int16_t[3]){0, 0, 0}, (const long double[3]){0, 0, -distance})) {
-            continue;
-        }
+        if (!stand(&s, (const int16_t[3]){0, 0, 0}, (const long double[3]){0, 0, -distance})) { continue; }
         const int error = make(&s, &transform);
         if (error) {
             assert_int_equal(error, TUILE_ERROR_RANGE);
@@ -901,9 +863,7 @@ static void lights_add_up_in_any_direction(void **state) {
         }
         const int n[3] = {random_between(&random, -127, 127), random_between(&random, -127, 127),
                           random_between(&random, -127, 127)};
-        if (n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 128 * 128) {
-            continue;
-        }
+        if (n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 128 * 128) { continue; }
         double sum = s.scene.ambient < LIGHT_MIN ? LIGHT_MIN : s.scene.ambient;
         for (int l = 0; l < s.scene.light_count; l++) {
             double dot = 0;
@@ -958,9 +918,7 @@ static void random_cluster(random_source_t *random, test_cluster_t *c) {
             for (int j = 0; j < 3; j++) {
                 at += r[j][i] * 0x1p-30 * local[j];
             }
-            if (axis_aligned >= 0) {
-                at = i == axis_aligned ? 0 : local[i == (axis_aligned + 1) % 3];
-            }
+            if (axis_aligned >= 0) { at = i == axis_aligned ? 0 : local[i == (axis_aligned + 1) % 3]; }
             c->q[v][i] = (int16_t)(centre[i] + (int)at);
         }
         const double dx = c->q[v][0] - centre[0], dy = c->q[v][1] - centre[1], dz = c->q[v][2] - centre[2];
@@ -982,12 +940,8 @@ static void random_cluster(random_source_t *random, test_cluster_t *c) {
             }
             length = sqrtl(dot3(c->normals[f], c->normals[f]));
         }
-        if (length == 0) {
-            length = 1;
-        }
-        if (axis_aligned >= 0 ? c->normals[f][axis_aligned] < 0 : dot3(c->normals[f], up) < 0) {
-            length = -length;
-        }
+        if (length == 0) { length = 1; }
+        if (axis_aligned >= 0 ? c->normals[f][axis_aligned] < 0 : dot3(c->normals[f], up) < 0) { length = -length; }
         for (int i = 0; i < 3; i++) {
             c->normals[f][i] /= length;
             mean[i] += c->normals[f][i];
@@ -1058,9 +1012,7 @@ static void clusters_with_a_vertex_in_the_region_are_never_dropped(void **state)
             const double z = random_real(&random, 0, 40);
             const long double wanted[3] = {(long double)random_real(&random, -2 * z, 2 * z),
                                            (long double)random_real(&random, -2 * z, 2 * z), -(long double)z};
-            if (!stand(&s, centre, wanted)) {
-                continue;
-            }
+            if (!stand(&s, centre, wanted)) { continue; }
         }
         assert_int_equal(make(&s, &transform), TUILE_OK);
         const int32_t left = random_between(&random, 0, 319), top = random_between(&random, 0, 239);
@@ -1082,9 +1034,7 @@ static void clusters_with_a_vertex_in_the_region_are_never_dropped(void **state)
         assert_false(dropped && inside);
         /* Far behind the eye or beyond the far plane, by more than the sphere can reach: dropped for certain. */
         const long double diameter = 2 * (long double)model_u16(c.bytes + CLUSTER_AT_RADIUS) / 256 + 0.5L;
-        if (near_by[0] < -diameter || near_by[1] < -diameter) {
-            missed += !dropped;
-        }
+        if (near_by[0] < -diameter || near_by[1] < -diameter) { missed += !dropped; }
         culled += dropped;
         seen += inside;
     }
@@ -1111,9 +1061,7 @@ static void clusters_with_a_front_face_are_never_dropped(void **state) {
             for (int i = 0; i < 3; i++) {
                 wanted[i] = (long double)random_real(&random, -1.5 * radius, 1.5 * radius);
             }
-            if (!stand(&s, centre, wanted)) {
-                continue;
-            }
+            if (!stand(&s, centre, wanted)) { continue; }
         }
         assert_int_equal(make(&s, &transform), TUILE_OK);
         bool front = false;

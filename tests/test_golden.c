@@ -43,7 +43,9 @@ static const char *build_folder(void) {
 
 static uint64_t fnv(const uint8_t *bytes, size_t size_bytes) {
     uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < size_bytes; i++) { hash = (hash ^ bytes[i]) * 0x100000001b3u; }
+    for (size_t i = 0; i < size_bytes; i++) {
+        hash = (hash ^ bytes[i]) * 0x100000001b3u;
+    }
     return hash;
 }
 
@@ -75,8 +77,8 @@ static void hashes_close(hashes_t *hashes) {
     if (updating) {
         command_write(hashes->path, hashes->written, strlen(hashes->written));
     } else if (strcmp(hashes->old, hashes->written) != 0) {
-        fail_msg("%s does not say what was drawn just now; if that is meant, `make golden` and look at the pictures\n%s", hashes->path,
-                 hashes->written);
+        fail_msg("%s does not say what was drawn just now; if that is meant, `make golden` and look at the pictures\n%s",
+                 hashes->path, hashes->written);
     }
     free(hashes->old);
 }
@@ -145,7 +147,8 @@ static void show_difference(const sim_picture_t *drawn, const sim_picture_t *gol
     (void)snprintf(path, sizeof path, "%s/%s.png", folder, name);
     if (sim_picture_write(drawn, path, &error) != 0) { print_message("%s\n", error.text); }
     (void)snprintf(path, sizeof path, "%s/%s-difference.png", folder, name);
-    if (sim_picture_difference(drawn, golden, &difference, &count, &error) != 0 || sim_picture_write(&difference, path, &error) != 0) {
+    if (sim_picture_difference(drawn, golden, &difference, &count, &error) != 0 ||
+        sim_picture_write(&difference, path, &error) != 0) {
         print_message("%s\n", error.text);
     }
     sim_picture_free(&difference);
@@ -174,7 +177,8 @@ static void small_models_look_as_they_did(void **state) {
             } else if (sim_picture_read(&golden, path, &error) != 0) {
                 print_message("%s\n", error.text);
                 same = false;
-            } else if (golden.width != WIDTH || golden.height != HEIGHT || memcmp(golden.rgb, drawn.rgb, (size_t)3 * WIDTH * HEIGHT) != 0) {
+            } else if (golden.width != WIDTH || golden.height != HEIGHT ||
+                       memcmp(golden.rgb, drawn.rgb, (size_t)3 * WIDTH * HEIGHT) != 0) {
                 show_difference(&drawn, &golden, name);
                 same = false;
             }

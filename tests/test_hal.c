@@ -118,25 +118,25 @@ static void forget(recorder_t *recorder) {
 
 /* ---- bytes ------------------------------------------------------------------------------------------------- */
 
-#define VENDOR_BLOCK                                                                                                               \
-    "EF|03 80 02\n"                                                                                                                \
-    "CF|00 C1 30\n"                                                                                                                \
-    "ED|64 03 12 81\n"                                                                                                             \
-    "E8|85 00 78\n"                                                                                                                \
-    "CB|39 2C 00 34 02\n"                                                                                                          \
-    "F7|20\n"                                                                                                                      \
-    "EA|00 00\n"                                                                                                                   \
-    "C0|23\n"                                                                                                                      \
-    "C1|10\n"                                                                                                                      \
-    "C5|3E 28\n"                                                                                                                   \
-    "C7|86\n"                                                                                                                      \
-    "B1|00 13\n"                                                                                                                   \
-    "F2|00\n"                                                                                                                      \
-    "26|01\n"                                                                                                                      \
-    "E0|0F 31 2B 0C 0E 08 4E F1 37 07 10 03 0E 09 00\n"                                                                            \
-    "E1|00 0E 14 03 11 07 31 C1 48 08 0F 0C 31 36 0F\n"                                                                            \
-    "B6|08 C2 27\n"                                                                                                                \
-    "11\n"                                                                                                                         \
+#define VENDOR_BLOCK                                    \
+    "EF|03 80 02\n"                                     \
+    "CF|00 C1 30\n"                                     \
+    "ED|64 03 12 81\n"                                  \
+    "E8|85 00 78\n"                                     \
+    "CB|39 2C 00 34 02\n"                               \
+    "F7|20\n"                                           \
+    "EA|00 00\n"                                        \
+    "C0|23\n"                                           \
+    "C1|10\n"                                           \
+    "C5|3E 28\n"                                        \
+    "C7|86\n"                                           \
+    "B1|00 13\n"                                        \
+    "F2|00\n"                                           \
+    "26|01\n"                                           \
+    "E0|0F 31 2B 0C 0E 08 4E F1 37 07 10 03 0E 09 00\n" \
+    "E1|00 0E 14 03 11 07 31 C1 48 08 0F 0C 31 36 0F\n" \
+    "B6|08 C2 27\n"                                     \
+    "11\n"                                              \
     "delay 120\n"
 
 static void test_ili9341_init_bytes(void **state) {
@@ -378,9 +378,7 @@ static void check_pixel(const uint8_t *rgb, uint8_t wire, uint32_t c) {
 
     for (unsigned i = 0; i < 3; i++) {
         unsigned six = wire == TUILE_WIRE_RGB565 && i != 1 ? (part[i] & 62) | part[i] >> 5 : part[i];
-        if (rgb[i] != (six << 2 | six >> 4)) {
-            fail_msg("colour %05X: part %u is %u", c, i, rgb[i]);
-        }
+        if (rgb[i] != (six << 2 | six >> 4)) { fail_msg("colour %05X: part %u is %u", c, i, rgb[i]); }
     }
 }
 
@@ -871,9 +869,7 @@ static void check_fault_at(uint64_t transfer, uint8_t parts, bool no_reset_pin, 
                                            .blocking = blocking,
                                            .max_chunk_bytes = 20000});
     result = start_display(&board, 1, TUILE_WIRE_RGB565);
-    if (result == 0) {
-        result = draw(&board.display, TUILE_WIRE_RGB565, 320, 40);
-    }
+    if (result == 0) { result = draw(&board.display, TUILE_WIRE_RGB565, 320, 40); }
     assert_int_equal(result, TUILE_HAL_IO);
     assert_int_equal(board.display.error, TUILE_HAL_IO);
     transfers = board.bus.transfers;
@@ -921,9 +917,7 @@ static void test_gone_at_every_transfer(void **state) {
         int result;
         open_board(&board, &(sim_bus_config_t){.fail_transfer = transfer, .fail_code = TUILE_HAL_GONE, .max_chunk_bytes = 20000});
         result = start_display(&board, 1, TUILE_WIRE_RGB565);
-        if (result == 0) {
-            result = draw(&board.display, TUILE_WIRE_RGB565, 320, 40);
-        }
+        if (result == 0) { result = draw(&board.display, TUILE_WIRE_RGB565, 320, 40); }
         assert_int_equal(result, TUILE_HAL_GONE);
         assert_int_equal(tuile_display_resume(&board.display), TUILE_HAL_GONE);
         assert_true(board.bus.transfers == transfer);
@@ -935,9 +929,7 @@ static void test_gone_at_every_transfer(void **state) {
 
 static bool row_is(const board_t *board, uint32_t row, uint8_t value) {
     for (uint32_t x = 0; x < 240; x++) {
-        if (sim_dcs_memory(board->chip, x, row) != (value ? 0x3FFFF : 0u)) {
-            return false;
-        }
+        if (sim_dcs_memory(board->chip, x, row) != (value ? 0x3FFFF : 0u)) { return false; }
     }
     return true;
 }
@@ -1142,18 +1134,14 @@ static void test_illegal(void **state) {
     int result;
 
     open_board(&board, &(sim_bus_config_t){.blocking = true});
-    if (!c->raw) {
-        assert_int_equal(start_display(&board, 0, TUILE_WIRE_RGB565), 0);
-    }
+    if (!c->raw) { assert_int_equal(start_display(&board, 0, TUILE_WIRE_RGB565), 0); }
     result = play(&board, c->script);
     if (!c->fault) {
         assert_string_equal(board.chip->fault.text, "");
         assert_int_equal(result, 0);
     } else {
         assert_int_equal(result, TUILE_HAL_PROTOCOL);
-        if (!strstr(board.chip->fault.text, c->fault)) {
-            fail_msg("\"%s\" has no \"%s\"", board.chip->fault.text, c->fault);
-        }
+        if (!strstr(board.chip->fault.text, c->fault)) { fail_msg("\"%s\" has no \"%s\"", board.chip->fault.text, c->fault); }
         assert_null(strchr(board.chip->fault.text, '\n'));
         assert_string_equal(board.bus.error.text, board.chip->fault.text);
         /* Sticky: nothing more is taken. */
@@ -1197,9 +1185,7 @@ struct tuile {
 
 static int fake_begin(tuile_t *renderer, const tuile_scene_t *scene) {
     (void)scene;
-    if (renderer->begin_error) {
-        return renderer->begin_error;
-    }
+    if (renderer->begin_error) { return renderer->begin_error; }
     renderer->begun++;
     renderer->next = 0;
     return 0;
@@ -1210,12 +1196,8 @@ static int fake_next(tuile_t *renderer, tuile_tile_t *tile) {
     uint32_t y = 32 * renderer->next;
 
     *tile = (tuile_tile_t){0};
-    if (renderer->next_error && renderer->next == renderer->fail_at) {
-        return renderer->next_error;
-    }
-    if (renderer->next == 10) {
-        return 0;
-    }
+    if (renderer->next_error && renderer->next == renderer->fail_at) { return renderer->next_error; }
+    if (renderer->next == 10) { return 0; }
     memset(to, 0, sizeof renderer->buffers[0]);
     for (uint32_t row = 0; row < 32; row++) {
         for (uint32_t x = 0; x < 240; x++) {
@@ -1230,9 +1212,7 @@ static int fake_next(tuile_t *renderer, tuile_tile_t *tile) {
 static int fake_end(tuile_t *renderer, tuile_stats_t *stats) {
     assert_null(renderer->bus->flying); /* the block is the renderer's again */
     renderer->ended++;
-    if (stats) {
-        stats->tiles = renderer->next;
-    }
+    if (stats) { stats->tiles = renderer->next; }
     return renderer->end_error;
 }
 

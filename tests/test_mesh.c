@@ -38,14 +38,10 @@ static size_t files_in_folder(bool remove_them) {
     assert_non_null(directory);
     for (struct dirent *entry; (entry = readdir(directory));) {
         char path[400];
-        if (entry->d_name[0] == '.') {
-            continue;
-        }
+        if (entry->d_name[0] == '.') { continue; }
         count++;
         (void)snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-        if (remove_them && unlink(path)) {
-            (void)rmdir(path);
-        }
+        if (remove_them && unlink(path)) { (void)rmdir(path); }
     }
     (void)closedir(directory);
     return count;
@@ -227,9 +223,7 @@ static size_t check_cones(const read_model_t *m, int eyes) {
             double length = sqrt(dot3(axis, axis)), cutoff = c[11] / 254.0;
             bool perspective = dot3(d, axis) - u16(c + 6) * length >= cutoff * length * sqrt(dot3(d, d));
             bool orthographic = dot3(eye, axis) >= cutoff * length * sqrt(dot3(eye, eye));
-            if (c[11] == 255 || !(perspective || orthographic)) {
-                continue;
-            }
+            if (c[11] == 255 || !(perspective || orthographic)) { continue; }
             away++;
             plane_of(&m->faces[f], n);
             assert_true(!orthographic || dot3(eye, n) >= -1e-3 * sqrt(dot3(n, n)));
@@ -313,9 +307,7 @@ static void drop(compiled_t *c) {
 
 static const read_face_t *face_of_source(const read_model_t *m, uint32_t source) {
     for (uint32_t f = 0; f < m->face_count; f++) {
-        if (m->faces[f].source == source) {
-            return &m->faces[f];
-        }
+        if (m->faces[f].source == source) { return &m->faces[f]; }
     }
     fail_msg("no face has source %u", source);
     return NULL;
@@ -739,9 +731,8 @@ static void test_binary_ply_cut_anywhere(void **state) {
 static void test_formats(void **state) {
     (void)state;
     static const char *const files[][2] = {
-        {"quad.ply",
-         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-         "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"},
+        {"quad.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"},
         {"quad.off", "OFF\n# a square\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"},
         {"cr.obj", "v 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf -4 -3 -2 -1\r\n"},
         {"early.obj", "f 1/1 2/2 3/3 4/4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0"},
@@ -836,12 +827,8 @@ static mesh_t make_ball(uint32_t rings, uint32_t sectors, double lumps) {
             uint32_t count = 0;
             c[count++] = a;
             c[count++] = b;
-            if (d != b) {
-                c[count++] = d;
-            }
-            if (e != a) {
-                c[count++] = e;
-            }
+            if (d != b) { c[count++] = d; }
+            if (e != a) { c[count++] = e; }
             mesh.faces[mesh.face_count] = (mesh_face_t){.first = (uint32_t)mesh.corner_count,
                                                         .count = count,
                                                         .material = s < sectors / 2,
@@ -1101,10 +1088,9 @@ static void test_source_file(void **state) {
     char command[500];
     assert_int_equal(mesh_write(c.bytes, c.size_bytes, path_of("3-cube.c"), NULL, &error), 0);
     assert_int_equal(mesh_write(c.bytes, c.size_bytes, path_of("my.c"), "my_cube", &error), 0);
-    (void)put_text("main.c",
-                   "#include <stdint.h>\n#include <stdio.h>\nextern const uint32_t model_3_cube[], my_cube[];\n"
-                   "int main(void) {\n    return fwrite(model_3_cube, 1, model_3_cube[1], stdout) != model_3_cube[1] ||\n"
-                   "           fwrite(my_cube, 1, my_cube[1], stdout) != my_cube[1];\n}\n");
+    (void)put_text("main.c", "#include <stdint.h>\n#include <stdio.h>\nextern const uint32_t model_3_cube[], my_cube[];\n"
+                             "int main(void) {\n    return fwrite(model_3_cube, 1, model_3_cube[1], stdout) != model_3_cube[1] ||\n"
+                             "           fwrite(my_cube, 1, my_cube[1], stdout) != my_cube[1];\n}\n");
     (void)snprintf(command, sizeof command,
                    "cd %s && ${CC:-cc} -std=c11 -Wall -Wextra -Wpedantic -Werror main.c 3-cube.c my.c -o main && ./main > both",
                    folder);

@@ -53,13 +53,9 @@ static int remove_folder(void **state) {
     (void)state;
     while (dir && (entry = readdir(dir))) {
         snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-        if (unlink(path)) {
-            rmdir(path);
-        }
+        if (unlink(path)) { rmdir(path); }
     }
-    if (dir) {
-        closedir(dir);
-    }
+    if (dir) { closedir(dir); }
     return rmdir(folder);
 }
 
@@ -96,9 +92,7 @@ static void check_equal(const sim_picture_t *a, const sim_picture_t *b) {
 }
 
 static void check_one_line(const sim_error_t *error, const char *part) {
-    if (!strstr(error->text, part)) {
-        fail_msg("\"%s\" has no \"%s\"", error->text, part);
-    }
+    if (!strstr(error->text, part)) { fail_msg("\"%s\" has no \"%s\"", error->text, part); }
     assert_null(strchr(error->text, '\n'));
 }
 
@@ -161,9 +155,7 @@ static void test_reads_a_grey_png(void **state) {
 
     (void)state;
     write_bytes(in_folder("d.png"), bytes, sizeof bytes - 1);
-    if (sim_picture_read(&picture, in_folder("d.png"), &error)) {
-        fail_msg("%s", error.text);
-    }
+    if (sim_picture_read(&picture, in_folder("d.png"), &error)) { fail_msg("%s", error.text); }
     assert_memory_equal(picture.rgb, "\x80\x80\x80", 3);
     sim_picture_free(&picture);
     unlink(in_folder("d.png"));
@@ -232,15 +224,11 @@ static void test_read_only_folder(void **state) {
 
     (void)state;
     assert_int_equal(chmod(folder, 0555), 0);
-    if (root && seteuid(65534)) {
-        skip();
-    }
+    if (root && seteuid(65534)) { skip(); }
     picture = make(3, 3, 1);
     result = sim_picture_write(&picture, in_folder("a.png"), &error);
     sim_picture_free(&picture);
-    if (root) {
-        assert_int_equal(seteuid(0), 0);
-    }
+    if (root) { assert_int_equal(seteuid(0), 0); }
     assert_int_equal(chmod(folder, 0755), 0);
     assert_int_equal(result, -1);
     check_one_line(&error, "Permission denied");
@@ -254,9 +242,7 @@ static void test_full_device(void **state) {
     sim_error_t error;
 
     (void)state;
-    if (stat("/dev/full", &status) || !S_ISCHR(status.st_mode)) {
-        skip();
-    }
+    if (stat("/dev/full", &status) || !S_ISCHR(status.st_mode)) { skip(); }
     for (size_t i = 0; i < 2; i++) {
         for (unsigned large = 0; large < 2; large++) {
             /* small: the failure is seen at the flush only */

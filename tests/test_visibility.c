@@ -30,7 +30,9 @@ static unsigned wrong_pixels(const char *text, const test_scene_t *scene, const 
             const int32_t face = (int32_t)ids[y * scene->text.width + x] - 1;
             const visibility_pixel_t expected = visibility_reference_at(reference, x, y);
             const bool right = expected.doubt ? visibility_reference_allows(reference, x, y, face) : face == expected.face;
-            if (!right && wrong++ < 4) { print_message("pixel %d,%d: face %d, expected %d, doubt %u\n", x, y, face, expected.face, expected.doubt); }
+            if (!right && wrong++ < 4) {
+                print_message("pixel %d,%d: face %d, expected %d, doubt %u\n", x, y, face, expected.face, expected.doubt);
+            }
         }
     }
     visibility_reference_free(reference);
@@ -79,7 +81,9 @@ static void a_ground_plane_through_the_near_plane_reaches_the_horizon(void **sta
         uint32_t *ids = test_scene_ids(&scene, NULL, 1 << 20, NULL);
         assert_int_equal(wrong_pixels(text, &scene, ids), 0);
         unsigned seen = 0;
-        for (unsigned p = 160 * 62; p < 160 * 120; p++) { seen += ids[p] != 0; }
+        for (unsigned p = 160 * 62; p < 160 * 120; p++) {
+            seen += ids[p] != 0;
+        }
         assert_in_range(seen, 160u * 58u * (r == 100 ? 97u : 99u) / 100u, 160u * 58u);
         free(ids);
         test_scene_close(&scene);
@@ -174,10 +178,12 @@ static void two_renderers_share_a_frame_by_bands_or_by_alternate_tiles(void **st
         const tuile_config_t shares[][2] = {
             {{.tile_height = 4, .row_end = 20}, {.tile_height = 4, .row_first = 20}},
             {{.tile_height = 4, .tile_first = 0, .tile_step = 2}, {.tile_height = 4, .tile_first = 1, .tile_step = 2}},
-            {{.tile_width = 16, .tile_height = 8, .tile_first = 0, .tile_step = 3}, {.tile_width = 16, .tile_height = 8, .tile_first = 1, .tile_step = 3}},
+            {{.tile_width = 16, .tile_height = 8, .tile_first = 0, .tile_step = 3},
+             {.tile_width = 16, .tile_height = 8, .tile_first = 1, .tile_step = 3}},
         };
         for (unsigned i = 0; i < 3; i++) {
-            uint32_t *a = test_scene_ids(&scene, &shares[i][0], 1 << 16, NULL), *b = test_scene_ids(&scene, &shares[i][1], 1 << 16, NULL);
+            uint32_t *a = test_scene_ids(&scene, &shares[i][0], 1 << 16, NULL),
+                     *b = test_scene_ids(&scene, &shares[i][1], 1 << 16, NULL);
             for (unsigned p = 0; p < (unsigned)scene.text.width * scene.text.height; p++) {
                 if (a[p] != TEST_NOT_DRAWN) { assert_int_equal(a[p], expected[p]); }
                 if (b[p] != TEST_NOT_DRAWN) { assert_int_equal(b[p], expected[p]); }

@@ -4,9 +4,9 @@
  * of it is
  *     x = ceil(((x0 - 8) * dy + (16 j + 8 - y0) * dx) / (16 dy)),   dx = x1 - x0, dy = y1 - y0.
  * The stepper keeps x and the remainder n of that quotient, 0 <= n < d = 16 dy, with  x * d + n = numerator + d - 1.  A row further
- * down the numerator grows by 16 dx: q = floor(dx / dy) whole pixels and a remainder r, so a row costs three additions and a comparison,
- * and x is exact on every row. It serves left sides (first pixel in) and right sides (first pixel out) alike, which is why
- * faces that share a side share no pixel and leave none out.
+ * down the numerator grows by 16 dx: q = floor(dx / dy) whole pixels and a remainder r, so a row costs three additions and a
+ * comparison, and x is exact on every row. It serves left sides (first pixel in) and right sides (first pixel out) alike, which is
+ * why faces that share a side share no pixel and leave none out.
  *
  * Rows: a side counts on row j iff y0 <= 16 j + 8 < y1, that is edge_row(y0) <= j < edge_row(y1).
  */
@@ -44,8 +44,8 @@ TUILE_INLINE void edge_start(edge_t *edge, int32_t x0, int32_t y0, int32_t x1, i
 
 /* The same for |coordinates| <= 2^19 and any row in range: 64 bits for the prestep, the stepper itself stays in 32. */
 static inline void edge_start_wide(edge_t *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row) {
-    const int32_t dx = x1 - x0, dy = y1 - y0;    /* < 2^20 */
-    const int32_t d = 16 * dy;                   /* < 2^24 */
+    const int32_t dx = x1 - x0, dy = y1 - y0;                                                     /* < 2^20 */
+    const int32_t d = 16 * dy;                                                                    /* < 2^24 */
     const int64_t numerator = (int64_t)(x0 - 8) * dy + ((int64_t)16 * row + 8 - y0) * dx + d - 1; /* < 2^42 */
     const int64_t x = fixed_floor_div64(numerator, d);
     edge->x = (int32_t)x;
@@ -57,9 +57,9 @@ static inline void edge_start_wide(edge_t *edge, int32_t x0, int32_t y0, int32_t
 
 /* A short side, |dx| < SHORT_SIDE and dy < SHORT_SIDE, needs no remainder: x as Q.20, one addition a row.
  *
- * With S = floor(2^20 dx / dy) the stepper holds, t sixteenths of a pixel below (x0, y0),  v = 2^20 X + 2^20 - 1 - e,  where X is the
- * exact quotient that edge_start takes the ceiling of and 0 <= e < t / 16 + 1 <= 33 collects what S and the prestep lost. X is a
- * multiple of 1 / (16 dy), hence floor(v / 2^20) = ceil(X) as long as 1 + e <= 2^20 / (16 dy), which is at least 128. */
+ * With S = floor(2^20 dx / dy) the stepper holds, t sixteenths of a pixel below (x0, y0),  v = 2^20 X + 2^20 - 1 - e,  where X is
+ * the exact quotient that edge_start takes the ceiling of and 0 <= e < t / 16 + 1 <= 33 collects what S and the prestep lost. X is
+ * a multiple of 1 / (16 dy), hence floor(v / 2^20) = ceil(X) as long as 1 + e <= 2^20 / (16 dy), which is at least 128. */
 #define SHORT_SIDE 512
 
 typedef struct short_edge {

@@ -36,7 +36,9 @@ unsigned polygon_chains(const polygon_ring_t *ring, polygon_chain_t *chains, uns
     int before = 0;
     unsigned count = 0;
 
-    for (i = ring->count; i > 0 && before == 0; i--) { before = side_direction(ring, i - 1); }
+    for (i = ring->count; i > 0 && before == 0; i--) {
+        before = side_direction(ring, i - 1);
+    }
     if (before == 0) { return 0; }
     for (start = 0; start < ring->count; start++) { /* the first side that turns round begins a chain */
         const int direction = side_direction(ring, start);
@@ -122,7 +124,9 @@ static unsigned sorted_crossings(const polygon_chain_t *chains, unsigned count, 
         if (row < chains[c].row_first || row >= chains[c].row_end) { continue; }
         const int32_t x = chains[c].edge.x;
         unsigned at = n++;
-        for (; at > 0 && crossings[at - 1] > x; at--) { crossings[at] = crossings[at - 1]; }
+        for (; at > 0 && crossings[at - 1] > x; at--) {
+            crossings[at] = crossings[at - 1];
+        }
         crossings[at] = x;
     }
     return n;
@@ -132,7 +136,9 @@ static unsigned sorted_crossings(const polygon_chain_t *chains, unsigned count, 
 static void chains_enter(const polygon_ring_t *ring, polygon_chain_t *chains, unsigned count, int32_t row, bool all) {
     for (unsigned c = 0; c < count; c++) {
         polygon_chain_t *chain = &chains[c];
-        if ((all ? chain->row_first <= row : chain->row_first == row) && row < chain->row_end) { polygon_chain_seek(ring, chain, row); }
+        if ((all ? chain->row_first <= row : chain->row_first == row) && row < chain->row_end) {
+            polygon_chain_seek(ring, chain, row);
+        }
     }
 }
 
@@ -262,8 +268,8 @@ static TUILE_NOINLINE void span_clamped(const polygon_t *polygon, const raster_t
     }
 }
 
-static void polygon_span(const polygon_t *polygon, const raster_tile_t *tile, int32_t row, int32_t from, int32_t to, span_kind_t kind,
-                         bool last) {
+static void polygon_span(const polygon_t *polygon, const raster_tile_t *tile, int32_t row, int32_t from, int32_t to,
+                         span_kind_t kind, bool last) {
     from = from < tile->left ? tile->left : from;
     to = to > tile->right ? tile->right : to;
     if (from >= to) { return; }
@@ -273,7 +279,8 @@ static void polygon_span(const polygon_t *polygon, const raster_tile_t *tile, in
     if (z < low || z > high || end < low || end > high) {
         span_clamped(polygon, tile, at, to - from, z, kind, last);
     } else if (kind == SPAN_IDS) {
-        span_ids(tile->depth + at, (uint32_t *)tile->colour + at, to - from, (uint32_t)z, (uint32_t)polygon->dzdx, polygon->value, last);
+        span_ids(tile->depth + at, (uint32_t *)tile->colour + at, to - from, (uint32_t)z, (uint32_t)polygon->dzdx, polygon->value,
+                 last);
     } else {
         span_flat(tile->depth + at, (uint16_t *)tile->colour + at, to - from, (uint32_t)z, (uint32_t)polygon->dzdx,
                   (uint16_t)polygon->value, last);
@@ -287,7 +294,9 @@ void polygon_fill(polygon_t *polygon, const polygon_ring_t *ring, const raster_t
         int32_t crossings[POLYGON_CHAINS];
         if (polygon->chain_count) {
             const unsigned n = sorted_crossings(polygon->chains, polygon->chain_count, row, crossings);
-            for (unsigned i = 0; i + 1 < n; i += 2) { polygon_span(polygon, tile, row, crossings[i], crossings[i + 1], kind, last); }
+            for (unsigned i = 0; i + 1 < n; i += 2) {
+                polygon_span(polygon, tile, row, crossings[i], crossings[i + 1], kind, last);
+            }
         } else {
             int32_t from, to;
             for (uint32_t i = 0; polygon_crossing(ring, row, i, &from) && polygon_crossing(ring, row, i + 1, &to); i += 2) {

@@ -1,12 +1,12 @@
 /* Polygons of any shape, even-odd (S6), by the same edge stepper.
  *
  * Going round a polygon, sides that lead down alternate with sides that lead up. A maximal run of one kind is a chain: on
- * each row it has at most one side, so a chain is one edge stepper that moves on from side to side. A convex polygon has two chains;
- * in general there is an even number, and on each row the chains' crossings, sorted, pair up to spans. Two chains need no
+ * each row it has at most one side, so a chain is one edge stepper that moves on from side to side. A convex polygon has two
+ * chains; in general there is an even number, and on each row the chains' crossings, sorted, pair up to spans. Two chains need no
  * order: the span runs from the lesser to the greater.
  *
- * The document keeps tables of left and right edges per row, filled before anything is drawn; chains give the same spans (its worked
- * example is a test) with memory that does not grow with the height.
+ * The document keeps tables of left and right edges per row, filled before anything is drawn; chains give the same spans (its
+ * worked example is a test) with memory that does not grow with the height.
  */
 #ifndef TUILE_FILL_POLYGON_H
 #define TUILE_FILL_POLYGON_H
@@ -17,9 +17,9 @@
 
 /* A ring of points: either window vertices, by index, or pairs of q28_4_t. */
 typedef struct polygon_ring {
-    const vertex_t *vertices;  /* used when wide is NULL */
-    const uint8_t *corners;    /* corner i is vertices[corners[i]]; NULL: vertices[i] */
-    const q28_4_t (*wide)[2];  /* |coordinate| <= 32767 * 16 */
+    const vertex_t *vertices; /* used when wide is NULL */
+    const uint8_t *corners;   /* corner i is vertices[corners[i]]; NULL: vertices[i] */
+    const q28_4_t (*wide)[2]; /* |coordinate| <= 32767 * 16 */
     uint32_t count;
 } polygon_ring_t;
 
@@ -73,8 +73,8 @@ void polygon_skip(polygon_t *polygon, const polygon_ring_t *ring, int32_t row);
 
 typedef void (*polygon_span_fn)(void *context, int32_t row, int32_t first, int32_t end);
 
-/* Calls span for each non-empty run of covered pixels first ... end - 1, cut to the window, top to bottom and left to right. chains:
- * scratch for `capacity` chains; any capacity, 0 included, gives the same spans. */
+/* Calls span for each non-empty run of covered pixels first ... end - 1, cut to the window, top to bottom and left to right.
+ * chains: scratch for `capacity` chains; any capacity, 0 included, gives the same spans. */
 void polygon_coverage(const polygon_ring_t *ring, int32_t width, int32_t height, polygon_chain_t *chains, unsigned capacity,
                       polygon_span_fn span, void *context);
 

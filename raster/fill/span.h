@@ -1,7 +1,7 @@
 /* The tile that is being drawn, and the innermost loops: pixels first ... first + count - 1 of one row, depth tested.
  *
- * Depth is Q16.16 with the rounding half added; only its upper half is compared and kept. A face wins a pixel when it is nearer than
- * what is there; on a tie the first one stays, or with `last` the later one takes over.
+ * Depth is Q16.16 with the rounding half added; only its upper half is compared and kept. A face wins a pixel when it is nearer
+ * than what is there; on a tie the first one stays, or with `last` the later one takes over.
  */
 #ifndef TUILE_FILL_SPAN_H
 #define TUILE_FILL_SPAN_H
@@ -11,8 +11,8 @@
 #include <stddef.h>
 
 typedef struct raster_tile {
-    uint16_t *depth; /* stride_px * height */
-    void *colour;    /* the same number of pixels, 2 or 4 bytes each */
+    uint16_t *depth;                  /* stride_px * height */
+    void *colour;                     /* the same number of pixels, 2 or 4 bytes each */
     int32_t left, top, right, bottom; /* pixels of the window: left ... right - 1 */
     int32_t stride_px;
 } raster_tile_t;

@@ -1,17 +1,16 @@
-/* Depth and light of a triangle are affine in the window. Both go in one 64-bit number, depth as Q16.16 above and light as Q8.24 below,
- * so that one addition steps both. At any pixel of the triangle
- *     shade(x, row) = shade at (0, first row) + x * d/dx + rows * d/dy        modulo 2^64,
- * so the result does not depend on the way by which a row is reached: tiles, passes and bands all see the same bits. The centre of
- * a covered pixel lies inside the triangle, so the true values lie between those of the corners, and the vertex stage keeps these away
- * from both ends of the range by more than the error below: neither does the modulus show, nor does light reach into depth, not even
- * for a sliver whose gradient overflows its half, since such a one is never two pixels wide.
+/* Depth and light of a triangle are affine in the window. Both go in one 64-bit number, depth as Q16.16 above and light as Q8.24
+ * below, so that one addition steps both. At any pixel of the triangle shade(x, row) = shade at (0, first row) + x * d/dx + rows *
+ * d/dy        modulo 2^64, so the result does not depend on the way by which a row is reached: tiles, passes and bands all see the
+ * same bits. The centre of a covered pixel lies inside the triangle, so the true values lie between those of the corners, and the
+ * vertex stage keeps these away from both ends of the range by more than the error below: neither does the modulus show, nor does
+ * light reach into depth, not even for a sliver whose gradient overflows its half, since such a one is never two pixels wide.
  *
  * Gradients. With area twice the area in (1/16 px)^2, d/dx = num / area, where num is a 2x2 determinant.
  *   Large: the exact quotient, floored: error below 2^-16 a pixel, over 2 * 2048 pixels 1/16 step.
- *   Small (sides short, below 32 pixels, depth below 512 steps apart): num * (2^31 / area) / 2^31. The reciprocal is off by less than 1, so
- *   the gradient by |num| / 2^31 per 1/16 px: |num| < 2^27 gives 2^-8 step a pixel, over 2 * 32 pixels 1/4 step; light, |num| < 2^18,
- *   2^-9 level a pixel, 1/8 level.
- * With the rounding to nearest the depth is within 1/2 + 1/4 + 2^-15 step of the exact plane through the snapped vertices.
+ *   Small (sides short, below 32 pixels, depth below 512 steps apart): num * (2^31 / area) / 2^31. The reciprocal is off by less
+ * than 1, so the gradient by |num| / 2^31 per 1/16 px: |num| < 2^27 gives 2^-8 step a pixel, over 2 * 32 pixels 1/4 step; light,
+ * |num| < 2^18, 2^-9 level a pixel, 1/8 level. With the rounding to nearest the depth is within 1/2 + 1/4 + 2^-15 step of the exact
+ * plane through the snapped vertices.
  */
 #include "triangle.h"
 
@@ -56,7 +55,8 @@ static TUILE_NOINLINE void bend(triangle_t *t) {
 }
 
 /* Both sides from the top down, and what is needed at the bend. mid is not below low. */
-TUILE_INLINE void sides_start(triangle_t *t, bool bends_left, int32_t x0, int32_t y0, const vertex_t *mid, const vertex_t *low, int32_t row) {
+TUILE_INLINE void sides_start(triangle_t *t, bool bends_left, int32_t x0, int32_t y0, const vertex_t *mid, const vertex_t *low,
+                              int32_t row) {
     const int32_t row_mid = edge_row(mid->y), row_end = edge_row(low->y);
     t->bends_left = bends_left;
     t->row_mid = t->head.row_end = (int16_t)row_end;
@@ -76,20 +76,25 @@ TUILE_INLINE void sides_start(triangle_t *t, bool bends_left, int32_t x0, int32_
 }
 
 /* All but the sides. */
-TUILE_INLINE void shade_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t row, bool gouraud) {
+TUILE_INLINE void shade_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t row,
+                              bool gouraud) {
     const int32_t x0 = v0->x, y0 = v0->y, x1 = v1->x - x0, y1 = v1->y - y0, x2 = v2->x - x0, y2 = v2->y - y0;
     const int32_t area = x2 * y1 - x1 * y2, reciprocal = INT32_MAX / area;
     const uint32_t depth0 = v0->depth_light >> 8;
     const int32_t z1 = (int32_t)(v1->depth_light >> 8) - (int32_t)depth0, z2 = (int32_t)(v2->depth_light >> 8) - (int32_t)depth0;
     const int32_t to_x = 8 - x0, to_y = 16 * row + 8 - y0;
-    const bool small = triangle->is_short && (uint32_t)(z1 + SMALL_DEPTH) < 2 * SMALL_DEPTH && (uint32_t)(z2 + SMALL_DEPTH) < 2 * SMALL_DEPTH;
-    const gradient_t depth = small ? gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12) : gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
+    const bool small =
+        triangle->is_short && (uint32_t)(z1 + SMALL_DEPTH) < 2 * SMALL_DEPTH && (uint32_t)(z2 + SMALL_DEPTH) < 2 * SMALL_DEPTH;
+    const gradient_t depth =
+        small ? gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12) : gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
     uint64_t shade = shade_pack(((int64_t)depth0 << 8) + 0x8000 + gradient_part(depth, to_x & 15, to_y & 15), 0);
     uint64_t dx = shade_pack(depth.dx, 0), dy = shade_pack(depth.dy, 0);
     if (gouraud) {
         const uint32_t light0 = v0->depth_light & 0xff;
-        const int32_t l1 = (int32_t)(v1->depth_light & 0xff) - (int32_t)light0, l2 = (int32_t)(v2->depth_light & 0xff) - (int32_t)light0;
-        const gradient_t light = small ? gradient_small(l1, l2, x1, y1, x2, y2, reciprocal, 28) : gradient_exact(l1, l2, x1, y1, x2, y2, area, 28);
+        const int32_t l1 = (int32_t)(v1->depth_light & 0xff) - (int32_t)light0,
+                      l2 = (int32_t)(v2->depth_light & 0xff) - (int32_t)light0;
+        const gradient_t light =
+            small ? gradient_small(l1, l2, x1, y1, x2, y2, reciprocal, 28) : gradient_exact(l1, l2, x1, y1, x2, y2, area, 28);
         shade += shade_pack(0, ((int64_t)light0 << 24) + 0x800000 + gradient_part(light, to_x & 15, to_y & 15));
         dx += shade_pack(0, light.dx);
         dy += shade_pack(0, light.dy);
@@ -99,10 +104,11 @@ TUILE_INLINE void shade_start(triangle_t *triangle, const vertex_t *v0, const ve
     triangle->dy = dy;
 }
 
-TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t first_row,
-                                   bool gouraud) {
+TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
+                                   int32_t first_row, bool gouraud) {
     const int32_t x0 = v0->x, x1 = v1->x, x2 = v2->x, first = edge_row(v0->y), row = first > first_row ? first : first_row;
-    const int32_t least = x0 < x1 ? (x0 < x2 ? x0 : x2) : (x1 < x2 ? x1 : x2), most = x0 > x1 ? (x0 > x2 ? x0 : x2) : (x1 > x2 ? x1 : x2);
+    const int32_t least = x0 < x1 ? (x0 < x2 ? x0 : x2) : (x1 < x2 ? x1 : x2),
+                  most = x0 > x1 ? (x0 > x2 ? x0 : x2) : (x1 > x2 ? x1 : x2);
     const bool bends_left = v1->y < v2->y;
 
     triangle->row = (int16_t)row;
@@ -117,8 +123,8 @@ TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, con
     }
 }
 
-/* kind, last, clamp and is_short are constants where this is called, so that each combination gets a loop of its own. `at` is the index
- * of the tile's pixel for x = 0 of the window, which may be negative. */
+/* kind, last, clamp and is_short are constants where this is called, so that each combination gets a loop of its own. `at` is the
+ * index of the tile's pixel for x = 0 of the window, which may be negative. */
 TUILE_INLINE void fill_rows(triangle_t *t, const raster_tile_t *tile, bool is_short, bool clamp, span_kind_t kind, bool last,
                             const uint16_t *ramp) {
     const int32_t end = t->head.row_end < tile->bottom ? t->head.row_end : tile->bottom;
@@ -142,11 +148,13 @@ TUILE_INLINE void fill_rows(triangle_t *t, const raster_tile_t *tile, bool is_sh
             if (to > 0) {
                 uint16_t *depth = tile->depth + (at + from);
                 if (kind == SPAN_GOURAUD) {
-                    span_gouraud(depth, (uint16_t *)tile->colour + (at + from), to, shade + dx * (uint64_t)(int64_t)from, dx, ramp, last);
+                    span_gouraud(depth, (uint16_t *)tile->colour + (at + from), to, shade + dx * (uint64_t)(int64_t)from, dx, ramp,
+                                 last);
                 } else {
                     const uint32_t z = (uint32_t)(shade >> 32) + (uint32_t)(dx >> 32) * (uint32_t)from;
                     if (kind == SPAN_FLAT) {
-                        span_flat(depth, (uint16_t *)tile->colour + (at + from), to, z, (uint32_t)(dx >> 32), (uint16_t)t->value, last);
+                        span_flat(depth, (uint16_t *)tile->colour + (at + from), to, z, (uint32_t)(dx >> 32), (uint16_t)t->value,
+                                  last);
                     } else {
                         span_ids(depth, (uint32_t *)tile->colour + (at + from), to, z, (uint32_t)(dx >> 32), t->value, last);
                     }
@@ -187,9 +195,11 @@ TUILE_NOINLINE void triangle_fill_flat(triangle_t *t, const raster_tile_t *tile)
 
 TUILE_NOINLINE void triangle_fill_any(triangle_t *t, const raster_tile_t *tile, span_kind_t kind, bool last, const uint16_t *ramp) {
     if (kind == SPAN_GOURAUD) {
-        t->is_short ? fill_rows(t, tile, true, true, SPAN_GOURAUD, last, ramp) : fill_rows(t, tile, false, true, SPAN_GOURAUD, last, ramp);
+        t->is_short ? fill_rows(t, tile, true, true, SPAN_GOURAUD, last, ramp)
+                    : fill_rows(t, tile, false, true, SPAN_GOURAUD, last, ramp);
     } else if (kind == SPAN_FLAT) {
-        t->is_short ? fill_rows(t, tile, true, true, SPAN_FLAT, last, NULL) : fill_rows(t, tile, false, true, SPAN_FLAT, last, NULL);
+        t->is_short ? fill_rows(t, tile, true, true, SPAN_FLAT, last, NULL)
+                    : fill_rows(t, tile, false, true, SPAN_FLAT, last, NULL);
     } else {
         t->is_short ? fill_rows(t, tile, true, true, SPAN_IDS, last, NULL) : fill_rows(t, tile, false, true, SPAN_IDS, last, NULL);
     }

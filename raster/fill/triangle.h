@@ -8,11 +8,11 @@
 
 typedef struct triangle {
     fill_head_t head;
-    int16_t row, row_mid;          /* next row to fill; row where the short side bends */
-    bool bends_left;               /* the short side is the left one */
-    bool is_short;                 /* all sides are: edge.h */
-    uint64_t shade, dx, dy;        /* depth and light at the centre of pixel (0, row), and per pixel right and down: triangle.c */
-    uint32_t value; /* flat: colour; ids: id; gouraud: material */
+    int16_t row, row_mid;   /* next row to fill; row where the short side bends */
+    bool bends_left;        /* the short side is the left one */
+    bool is_short;          /* all sides are: edge.h */
+    uint64_t shade, dx, dy; /* depth and light at the centre of pixel (0, row), and per pixel right and down: triangle.c */
+    uint32_t value;         /* flat: colour; ids: id; gouraud: material */
     int16_t mid_x, mid_y, low_x, low_y; /* the side below the bend */
     union {
         struct {
@@ -26,17 +26,20 @@ typedef struct triangle {
 
 /* v0 is a topmost vertex, v0 v1 v2 is counter-clockwise as seen, with an area above 0, and it spans some row >= first_row.
  * gouraud: light gradients are wanted. Leaves size_bytes, record and value alone. */
-void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t first_row, bool gouraud);
+void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t first_row,
+                    bool gouraud);
 
-/* All of these fill the rows from triangle->row to the tile's bottom or the triangle's end, and leave the state there; triangle->row <
- * tile->bottom. The first two are for short sides, within the tile's columns, where the first of equals wins. */
+/* All of these fill the rows from triangle->row to the tile's bottom or the triangle's end, and leave the state there;
+ * triangle->row < tile->bottom. The first two are for short sides, within the tile's columns, where the first of equals wins. */
 void triangle_fill_gouraud(triangle_t *triangle, const raster_tile_t *tile, const uint16_t *ramp);
 void triangle_fill_flat(triangle_t *triangle, const raster_tile_t *tile);
 void triangle_fill_any(triangle_t *triangle, const raster_tile_t *tile, span_kind_t kind, bool last, const uint16_t *ramp);
 
 /* ramp: SPAN_GOURAUD only. */
-TUILE_INLINE void triangle_fill(triangle_t *triangle, const raster_tile_t *tile, span_kind_t kind, bool last, const uint16_t *ramp) {
-    if (TUILE_UNLIKELY(!triangle->is_short || last || triangle->head.left < tile->left || triangle->head.right > tile->right || kind == SPAN_IDS)) {
+TUILE_INLINE void triangle_fill(triangle_t *triangle, const raster_tile_t *tile, span_kind_t kind, bool last,
+                                const uint16_t *ramp) {
+    if (TUILE_UNLIKELY(!triangle->is_short || last || triangle->head.left < tile->left || triangle->head.right > tile->right ||
+                       kind == SPAN_IDS)) {
         triangle_fill_any(triangle, tile, kind, last, ramp);
     } else if (kind == SPAN_GOURAUD) {
         triangle_fill_gouraud(triangle, tile, ramp);

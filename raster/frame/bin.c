@@ -9,7 +9,7 @@ typedef struct cluster {
     const int16_t *positions;
     const int8_t *face_normals; /* flat shading, else NULL */
     vertex_t *vertices;
-    bool any_outside; /* some vertex needs clipping */
+    bool any_outside;    /* some vertex needs clipping */
     uint32_t first_face; /* id - 1 of its first face */
 } cluster_t;
 
@@ -30,7 +30,9 @@ TUILE_INLINE uint32_t slots_left(const tuile_t *t) {
 /* A slot for one record, NULL when the arena is full. */
 TUILE_INLINE record_t *record_claim(tuile_t *t) {
     record_t *record = frame_record(t, t->record_count);
-    if (TUILE_UNLIKELY((uint8_t *)record < (uint8_t *)(t->vertices + t->vertex_count) || t->record_count >= UINT16_MAX - 1)) { return NULL; }
+    if (TUILE_UNLIKELY((uint8_t *)record < (uint8_t *)(t->vertices + t->vertex_count) || t->record_count >= UINT16_MAX - 1)) {
+        return NULL;
+    }
     return record;
 }
 
@@ -122,13 +124,15 @@ static TUILE_NOINLINE int bin_one_triangle(tuile_t *t, uint32_t base, uint32_t a
 }
 
 /* A polygon of more than three corners. listed: corners are relative to `base`; else they follow on one another from base. */
-static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *base, uint8_t material, const int8_t *normal, uint32_t id) {
+static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *base, uint8_t material, const int8_t *normal,
+                       uint32_t id) {
     int64_t area = 0;
     int32_t left = INT32_MAX, right = INT32_MIN, top = INT32_MAX, bottom = INT32_MIN;
     const vertex_t *v0 = &ring->vertices[ring->corners ? ring->corners[0] : 0];
     for (uint32_t i = 0; i < ring->count; i++) {
         const uint32_t j = i + 1 == ring->count ? 0 : i + 1;
-        const vertex_t *a = &ring->vertices[ring->corners ? ring->corners[i] : i], *b = &ring->vertices[ring->corners ? ring->corners[j] : j];
+        const vertex_t *a = &ring->vertices[ring->corners ? ring->corners[i] : i],
+                       *b = &ring->vertices[ring->corners ? ring->corners[j] : j];
         area += (int64_t)(b->x - v0->x) * (a->y - v0->y) - (int64_t)(a->x - v0->x) * (b->y - v0->y);
         left = a->x < left ? a->x : left;
         right = a->x > right ? a->x : right;
@@ -153,9 +157,15 @@ static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *b
     *slot = (polygon_slot_t){(uint16_t)ring->count, (uint16_t)(base - t->vertices), ring->corners != NULL, 0};
     if (ring->corners) {
         uint8_t *list = (uint8_t *)(slot + 1);
-        for (uint32_t i = 0; i < ring->count; i++) { list[i] = ring->corners[i]; }
+        for (uint32_t i = 0; i < ring->count; i++) {
+            list[i] = ring->corners[i];
+        }
     }
-    *record = (record_t){0, (uint16_t)((vertex_t *)(void *)slot - t->vertices), 0, 0, (uint8_t)(material + t->material_base),
+    *record = (record_t){0,
+                         (uint16_t)((vertex_t *)(void *)slot - t->vertices),
+                         0,
+                         0,
+                         (uint8_t)(material + t->material_base),
                          normal ? flat_light(t, normal, area < 0) : (uint8_t)v0->depth_light};
     record_emit(t, record, edge_row(top), id);
     if (t->immediate) { t->vertex_count -= slots; }
@@ -163,8 +173,8 @@ static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *b
 }
 
 /* A face of which some corner is beyond near plane, far plane or guard band. */
-static TUILE_NOINLINE int bin_clipped(tuile_t *t, const cluster_t *cluster, const uint8_t *corners, unsigned count, uint8_t material,
-                                      const int8_t *normal, uint32_t id) {
+static TUILE_NOINLINE int bin_clipped(tuile_t *t, const cluster_t *cluster, const uint8_t *corners, unsigned count,
+                                      uint8_t material, const int8_t *normal, uint32_t id) {
     const clip_face_t face = {cluster->positions, cluster->vertices, corners, count};
     vertex_t *out = t->vertices + t->vertex_count;
     const uint32_t mark = t->vertex_count;
@@ -180,7 +190,9 @@ static TUILE_NOINLINE int bin_clipped(tuile_t *t, const cluster_t *cluster, cons
     t->vertex_count += (uint32_t)left;
     const uint32_t binned = t->record_count;
     bool lit_alike = true;
-    for (int i = 1; i < left; i++) { lit_alike &= (uint8_t)out[i].depth_light == (uint8_t)out[0].depth_light; }
+    for (int i = 1; i < left; i++) {
+        lit_alike &= (uint8_t)out[i].depth_light == (uint8_t)out[0].depth_light;
+    }
     if (left == 3) {
         result = bin_one_triangle(t, mark, 0, 1, 2, material, normal, id);
     } else if (normal == NULL && !lit_alike && left <= 100) {
@@ -229,7 +241,9 @@ static int bin_far_triangle(tuile_t *t, const cluster_t *cluster, const uint8_t 
     if (slots_left(t) < 3) { return BIN_FULL; }
     vertex_t *v = t->vertices + t->vertex_count;
     const uint32_t binned = t->record_count;
-    for (unsigned i = 0; i < 3; i++) { v[i] = cluster->vertices[corners[i]]; }
+    for (unsigned i = 0; i < 3; i++) {
+        v[i] = cluster->vertices[corners[i]];
+    }
     t->vertex_count += 3;
     const int result = bin_one_triangle(t, t->vertex_count - 3, 0, 1, 2, material, normal, id);
     if (t->record_count == binned) { t->vertex_count -= 3; }
@@ -300,8 +314,9 @@ static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
         false,
         t->face_base + first_face,
     };
-    cluster.any_outside = vertex_stage(&t->transform, cluster.positions, flat ? NULL : (const int8_t *)model->normals + 3 * (size_t)first_vertex,
-                                       vertices, cluster.vertices);
+    cluster.any_outside =
+        vertex_stage(&t->transform, cluster.positions, flat ? NULL : (const int8_t *)model->normals + 3 * (size_t)first_vertex,
+                     vertices, cluster.vertices);
     t->vertex_count += vertices;
     t->stats.vertices += vertices;
     t->stats.faces_tested += faces;
@@ -316,7 +331,9 @@ int bin_pass(tuile_t *t) {
     const tuile_scene_t *scene = t->scene;
     t->stats.passes++;
     t->vertex_count = t->record_count = 0;
-    for (uint32_t row = t->pass_first; row < t->pass_end; row++) { t->buckets[row] = RECORD_NONE; }
+    for (uint32_t row = t->pass_first; row < t->pass_end; row++) {
+        t->buckets[row] = RECORD_NONE;
+    }
     t->face_base = 0;
     for (unsigned i = 0; i < scene->instance_count; i++) {
         t->instance = &scene->instances[i];
@@ -327,7 +344,9 @@ int bin_pass(tuile_t *t) {
         t->material_base = 0;
         for (unsigned j = 0; j < i && scene->instances[j].model != model; j++) {
             unsigned earlier = 0;
-            while (scene->instances[earlier].model != scene->instances[j].model) { earlier++; }
+            while (scene->instances[earlier].model != scene->instances[j].model) {
+                earlier++;
+            }
             if (earlier == j) { t->material_base = (uint16_t)(t->material_base + scene->instances[j].model->material_count); }
         }
         for (uint32_t k = 0; k < model->cluster_count; k++) {
@@ -363,7 +382,9 @@ void bin_record_rows(const tuile_t *t, const record_t *record, int32_t *first, i
 
 void bin_again(tuile_t *t, uint16_t row) {
     const int32_t top = row * t->config.tile_height;
-    for (uint32_t r = row; r < t->pass_end; r++) { t->buckets[r] = RECORD_NONE; }
+    for (uint32_t r = row; r < t->pass_end; r++) {
+        t->buckets[r] = RECORD_NONE;
+    }
     for (uint32_t i = 0; i < t->record_count; i++) {
         record_t *record = frame_record(t, i);
         int32_t first, end;

@@ -1,10 +1,10 @@
 /* A frame: the block laid out, passes over bands of the window, one tile after the other.
  *
  * A pass takes as many tile rows as its vertices and records find room for. It starts from what fitted last time; when the arena
- * overflows the band is halved and tried again, down to one tile row. When even that does not fit, each tile of the row is drawn in a
- * pass of its own in which faces are not kept but drawn as they come, which needs room for one cluster and one face only. Since depth,
- * light and coverage of a face at a pixel do not depend on where a pass begins, and faces come in the same order, the picture is
- * the same in all cases.
+ * overflows the band is halved and tried again, down to one tile row. When even that does not fit, each tile of the row is drawn in
+ * a pass of its own in which faces are not kept but drawn as they come, which needs room for one cluster and one face only. Since
+ * depth, light and coverage of a face at a pixel do not depend on where a pass begins, and faces come in the same order, the
+ * picture is the same in all cases.
  */
 #include "frame.h"
 
@@ -31,7 +31,9 @@ const uint8_t *frame_material(const tuile_t *t, uint32_t material) {
     for (unsigned i = 0; i < scene->instance_count; i++) {
         const tuile_model_t *model = scene->instances[i].model;
         unsigned earlier = 0;
-        while (scene->instances[earlier].model != model) { earlier++; }
+        while (scene->instances[earlier].model != model) {
+            earlier++;
+        }
         if (earlier < i) { continue; } /* counted already */
         if (material < model->material_count) { return model->materials + 4 * material; }
         material -= model->material_count;
@@ -42,7 +44,9 @@ const uint8_t *frame_material(const tuile_t *t, uint32_t material) {
 TUILE_NOINLINE void frame_ramp_make(tuile_t *t, uint32_t material, uint32_t slot) {
     uint16_t *ramp = t->ramps + slot * RAMP_COLOURS;
     const uint8_t *colour = frame_material(t, material);
-    for (uint32_t i = 0; i < RAMP_COLOURS; i++) { ramp[i] = resolve_lit(t->config.format, colour, (i * 255u + 31u) / 63u); }
+    for (uint32_t i = 0; i < RAMP_COLOURS; i++) {
+        ramp[i] = resolve_lit(t->config.format, colour, (i * 255u + 31u) / 63u);
+    }
     t->ramp_tags[slot] = (int16_t)material;
 }
 
@@ -59,8 +63,8 @@ static uint16_t default_tile_height(const tuile_config_t *c, size_t size_bytes) 
 static bool config_complete(tuile_config_t *c, size_t size_bytes) {
     if (c->width == 0 || c->height == 0 || c->width > TUILE_WINDOW_MAX_PX || c->height > TUILE_WINDOW_MAX_PX || c->buffers > 2 ||
         c->format > TUILE_FACE_IDS || c->method > TUILE_ZBUFFER || c->shade > TUILE_GOURAUD || c->tie > TUILE_TIE_LAST ||
-        c->tile_width > TUILE_WINDOW_MAX_PX || c->tile_height > TUILE_WINDOW_MAX_PX || c->cluster_vertices > 255 || c->corners > 255 ||
-        c->row_first > c->height || c->row_end > c->height || (c->row_end != 0 && c->row_end < c->row_first)) {
+        c->tile_width > TUILE_WINDOW_MAX_PX || c->tile_height > TUILE_WINDOW_MAX_PX || c->cluster_vertices > 255 ||
+        c->corners > 255 || c->row_first > c->height || c->row_end > c->height || (c->row_end != 0 && c->row_end < c->row_first)) {
         return false;
     }
     if (c->buffers == 0) { c->buffers = 2; }
@@ -79,9 +83,9 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     tuile_config_t c = *config;
     *renderer = NULL;
     if (!config_complete(&c, size_bytes)) { return TUILE_ERROR_ARGUMENT; }
-    const size_t least =
-        TUILE_LEAST_BYTES((size_t)c.height, (size_t)c.tile_width, (size_t)c.tile_height, c.format, (size_t)c.buffers, (size_t)c.cluster_vertices) +
-        TUILE_CORNERS_BYTES(c.corners);
+    const size_t least = TUILE_LEAST_BYTES((size_t)c.height, (size_t)c.tile_width, (size_t)c.tile_height, c.format,
+                                           (size_t)c.buffers, (size_t)c.cluster_vertices) +
+                         TUILE_CORNERS_BYTES(c.corners);
     if (wanted_bytes) { *wanted_bytes = least; }
     if (block == NULL || size_bytes < least) { return TUILE_ERROR_MEMORY; }
     if ((uintptr_t)block % 8 != 0 || size_bytes > UINT32_MAX) { return TUILE_ERROR_ARGUMENT; }
@@ -120,13 +124,19 @@ const tuile_config_t *tuile_config(const tuile_t *t) { return &t->config; }
 static int check_scene(const tuile_t *t, const tuile_scene_t *scene, uint32_t *materials, uint32_t *faces) {
     *materials = *faces = 0;
     if (scene->instance_count != 0 && scene->instances == NULL) { return TUILE_ERROR_ARGUMENT; }
-    if (scene->light_count > TRANSFORM_LIGHTS_MAX || (scene->light_count != 0 && scene->lights == NULL)) { return TUILE_ERROR_ARGUMENT; }
+    if (scene->light_count > TRANSFORM_LIGHTS_MAX || (scene->light_count != 0 && scene->lights == NULL)) {
+        return TUILE_ERROR_ARGUMENT;
+    }
     for (unsigned i = 0; i < scene->instance_count; i++) {
         const tuile_model_t *model = scene->instances[i].model;
         unsigned earlier = 0;
         if (model == NULL) { return TUILE_ERROR_ARGUMENT; }
-        if (model->cluster_vertices_max > t->config.cluster_vertices || model->corners_max > t->config.corners) { return TUILE_ERROR_LIMITS; }
-        while (scene->instances[earlier].model != model) { earlier++; }
+        if (model->cluster_vertices_max > t->config.cluster_vertices || model->corners_max > t->config.corners) {
+            return TUILE_ERROR_LIMITS;
+        }
+        while (scene->instances[earlier].model != model) {
+            earlier++;
+        }
         if (earlier == i) { *materials += model->material_count; }
         *faces += model->face_count;
     }
@@ -156,7 +166,9 @@ int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     t->ramp_count = (uint16_t)ramps;
     t->ramps = (uint16_t *)(void *)t->arena;
     t->ramp_tags = (int16_t *)(void *)(t->arena + ramps * RAMP_BYTES);
-    for (size_t i = 0; i < ramps; i++) { t->ramp_tags[i] = -1; }
+    for (size_t i = 0; i < ramps; i++) {
+        t->ramp_tags[i] = -1;
+    }
     t->vertices = (vertex_t *)(void *)(t->arena + TUILE_ALIGN8(ramps * ramp));
     const size_t slots = (size_t)(t->arena_end - (uint8_t *)t->vertices) / sizeof(vertex_t);
     t->vertex_limit = (uint32_t)(slots > 65535 ? 65535 : slots);

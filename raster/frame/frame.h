@@ -39,8 +39,8 @@ typedef struct record_id {
     uint32_t id;
 } record_id_t;
 
-/* Heads a polygon among the vertices: `count` corners; listed, as bytes relative to slot `base`, in the slots behind this one, or, for a
- * clipped polygon, the `count` vertices from slot `base` on. */
+/* Heads a polygon among the vertices: `count` corners; listed, as bytes relative to slot `base`, in the slots behind this one, or,
+ * for a clipped polygon, the `count` vertices from slot `base` on. */
 typedef struct polygon_slot {
     uint16_t count, base;
     uint16_t listed, unused;
@@ -53,9 +53,9 @@ typedef struct tuile {
     tuile_stats_t stats;
     uint16_t *depth;
     uint8_t *colours[2];
-    uint16_t *buckets;     /* one per tile row of the window */
+    uint16_t *buckets; /* one per tile row of the window */
     uint8_t *arena, *arena_end;
-    uint32_t tile_bytes;   /* of one colour buffer */
+    uint32_t tile_bytes; /* of one colour buffer */
     uint16_t tile_columns, tile_rows;
     uint8_t record_bytes;
     uint8_t next_buffer;
@@ -66,7 +66,7 @@ typedef struct tuile {
     uint16_t background;
     /* The pass. */
     vertex_t *vertices;
-    uint8_t *states;       /* where the stream of states may begin: after the vertices */
+    uint8_t *states; /* where the stream of states may begin: after the vertices */
     uint32_t vertex_count, vertex_limit;
     uint32_t record_count;
     uint16_t pass_first, pass_end; /* tile rows */

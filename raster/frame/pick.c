@@ -14,7 +14,9 @@ static wide_t dot3(const wide_t a[3], const wide_t b[3]) {
 static void rotate_back(wide_t out[3], const q2_30_t rotation[3][3], const wide_t in[3]) {
     for (int j = 0; j < 3; j++) {
         wide_t sum = {0, 0};
-        for (int k = 0; k < 3; k++) { sum = wide_add(sum, wide_multiply(wide_make(rotation[k][j], -30), in[k])); }
+        for (int k = 0; k < 3; k++) {
+            sum = wide_add(sum, wide_multiply(wide_make(rotation[k][j], -30), in[k]));
+        }
         out[j] = sum;
     }
 }
@@ -22,8 +24,8 @@ static void rotate_back(wide_t out[3], const q2_30_t rotation[3][3], const wide_
 static void pixel_ray(ray_t *ray, const tuile_camera_t *camera, const tuile_instance_t *instance, uint16_t x, uint16_t y) {
     const tuile_pose_t *pose = &instance->pose;
     const tuile_model_t *model = instance->model;
-    const wide_t step = wide_multiply(wide_make(model->step.mantissa, model->step.exponent),
-                                      wide_make(pose->scale.mantissa, pose->scale.exponent));
+    const wide_t step =
+        wide_multiply(wide_make(model->step.mantissa, model->step.exponent), wide_make(pose->scale.mantissa, pose->scale.exponent));
     const wide_t per_step = wide_reciprocal(step);
     const wide_t across = wide_multiply(wide_make((int64_t)x * 65536 + 32768 - camera->centre_x, -16),
                                         wide_reciprocal(wide_make(camera->focal_x, -16)));
@@ -38,7 +40,9 @@ static void pixel_ray(ray_t *ray, const tuile_camera_t *camera, const tuile_inst
     rotate_back(world, camera->rotation, view_along);
     rotate_back(ray->along, pose->rotation, world);
     rotate_back(world, camera->rotation, view_from);
-    for (int i = 0; i < 3; i++) { world[i] = wide_add(world[i], wide_make((int64_t)camera->eye[i] - pose->translation[i], -16)); }
+    for (int i = 0; i < 3; i++) {
+        world[i] = wide_add(world[i], wide_make((int64_t)camera->eye[i] - pose->translation[i], -16));
+    }
     rotate_back(local, pose->rotation, world);
     for (int i = 0; i < 3; i++) {
         ray->from[i] = wide_add(wide_multiply(local[i], per_step), wide_make(-(int64_t)model->offset[i], 0));
@@ -64,7 +68,9 @@ static unsigned face_corners(const tuile_model_t *model, uint32_t face, const ui
         *corners = at + 4 * (size_t)skip;
         return 3;
     }
-    for (; skip; skip--) { at += 3 + at[0]; }
+    for (; skip; skip--) {
+        at += 3 + at[0];
+    }
     *corners = at + 3;
     return at[0];
 }
@@ -85,7 +91,9 @@ static void face_plane(const tuile_model_t *model, uint32_t face, wide_t normal[
             sum[a] += (int64_t)(p[b] - q[b]) * (p[c] + q[c]);
         }
     }
-    for (int a = 0; a < 3; a++) { normal[a] = wide_make(sum[a], 0); }
+    for (int a = 0; a < 3; a++) {
+        normal[a] = wide_make(sum[a], 0);
+    }
 }
 
 static void intersect(const tuile_scene_t *scene, tuile_hit_t *hit, uint16_t x, uint16_t y) {
@@ -94,7 +102,9 @@ static void intersect(const tuile_scene_t *scene, tuile_hit_t *hit, uint16_t x, 
     wide_t normal[3], point[3] = {{0, 0}}, between[3];
     pixel_ray(&ray, &scene->camera, instance, x, y);
     face_plane(instance->model, hit->face, normal, point);
-    for (int i = 0; i < 3; i++) { between[i] = wide_add(point[i], wide_negate(ray.from[i])); }
+    for (int i = 0; i < 3; i++) {
+        between[i] = wide_add(point[i], wide_negate(ray.from[i]));
+    }
     const wide_t slope = dot3(normal, ray.along);
     const wide_t distance = wide_sign(slope) ? wide_multiply(dot3(normal, between), wide_reciprocal(slope)) : (wide_t){0, 0};
     for (int i = 0; i < 3; i++) {
@@ -110,7 +120,9 @@ int tuile_pick(const tuile_scene_t *scene, const tuile_config_t *config, uint16_
     tuile_tile_t tile;
     tuile_config_t one = {0};
 
-    if (scene == NULL || config == NULL || hit == NULL || x >= config->width || y >= config->height) { return TUILE_ERROR_ARGUMENT; }
+    if (scene == NULL || config == NULL || hit == NULL || x >= config->width || y >= config->height) {
+        return TUILE_ERROR_ARGUMENT;
+    }
     one.width = config->width;
     one.height = config->height;
     one.tile_width = one.tile_height = 1;

@@ -38,7 +38,9 @@ q16_16_t tuile_focal_px(bam16_t fov, uint16_t size_px) {
 void tuile_rotation(q2_30_t rotation[3][3], int axis, bam16_t angle) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) { rotation[i][j] = i == j ? TUILE_ONE_Q30 : 0; }
+        for (int j = 0; j < 3; j++) {
+            rotation[i][j] = i == j ? TUILE_ONE_Q30 : 0;
+        }
     }
     rotation[u][u] = rotation[v][v] = tuile_cos(angle);
     rotation[v][u] = tuile_sin(angle);

@@ -1,5 +1,5 @@
-/* Sutherland-Hodgman (S5) in homogeneous window coordinates, as a pipeline: each plane keeps only the first and the last vertex that
- * came by and hands its output to the next plane, so no polygon is ever stored, whatever its number of corners.
+/* Sutherland-Hodgman (S5) in homogeneous window coordinates, as a pipeline: each plane keeps only the first and the last vertex
+ * that came by and hands its output to the next plane, so no polygon is ever stored, whatever its number of corners.
  *
  * Where a side meets a plane is found by halving: of a point inside and one outside the middle replaces the one on its side, until
  * they are neighbours in the integer grid. That takes 48 additions instead of a division of 96 by 48 bits, cannot overflow,
@@ -156,7 +156,9 @@ int clip_polygon(const transform_t *transform, const clip_face_t *face, vertex_t
     state.overflow = false;
     for (unsigned i = 0; i < face->count; i++) {
         const clip_point_t p = corner_point(transform, face, i);
-        for (unsigned kind = 0; kind < CLIP_PLANES; kind++) { crossed |= (unsigned)!is_inside(transform, &p, kind) << kind; }
+        for (unsigned kind = 0; kind < CLIP_PLANES; kind++) {
+            crossed |= (unsigned)!is_inside(transform, &p, kind) << kind;
+        }
     }
     for (unsigned kind = 0; kind < CLIP_PLANES; kind++) {
         if (crossed & (1u << kind)) {

@@ -2,8 +2,9 @@
  *
  * A face with outward normal n through p faces away from the eye e when dot(p - e, n) >= 0. Let all normals of a cluster lie within
  * an angle alpha < 90 degrees of the axis a, and all points within radius r of the centre c. For v = c - e the direction v leaves
- * every such n on the far side when angle(v, a) <= 90 - alpha, that is dot(v, a) >= sin(alpha) |v| |a|; and moving from c to any point
- * of the sphere changes dot(v, n) by r at most, which the term r |a| covers, with 128 for |a| there. The cutoff in the model is sin(alpha), rounded up.
+ * every such n on the far side when angle(v, a) <= 90 - alpha, that is dot(v, a) >= sin(alpha) |v| |a|; and moving from c to any
+ * point of the sphere changes dot(v, n) by r at most, which the term r |a| covers, with 128 for |a| there. The cutoff in the model
+ * is sin(alpha), rounded up.
  *
  * In integers: dot - r |a| >= (cutoff / 254) |a| |v|, both sides squared once the left one is known to be positive. |v| has 22 bits
  * a component, so the squares stay below 2^62.

@@ -12,7 +12,9 @@ uint32_t model_crc32(uint32_t crc, const uint8_t *bytes, size_t size_bytes) {
     crc = ~crc;
     for (size_t i = 0; i < size_bytes; i++) {
         crc ^= bytes[i];
-        for (int bit = 0; bit < 8; bit++) { crc = (crc >> 1) ^ (0xedb88320u & (0u - (crc & 1u))); }
+        for (int bit = 0; bit < 8; bit++) {
+            crc = (crc >> 1) ^ (0xedb88320u & (0u - (crc & 1u)));
+        }
     }
     return ~crc;
 }
@@ -126,5 +128,6 @@ int tuile_model_open(tuile_model_t *model, const void *data, size_t size_bytes) 
 
 uint32_t tuile_model_source_face(const tuile_model_t *model, uint32_t face) {
     if (model->source == NULL || face >= model->face_count) { return face; }
-    return model->flags & MODEL_FLAG_SOURCE32 ? model_u32(model->source + 4 * (size_t)face) : model_u16(model->source + 2 * (size_t)face);
+    return model->flags & MODEL_FLAG_SOURCE32 ? model_u32(model->source + 4 * (size_t)face)
+                                              : model_u16(model->source + 2 * (size_t)face);
 }

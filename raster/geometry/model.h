@@ -18,24 +18,24 @@
 
 /* Byte offsets in the header. */
 enum {
-    MODEL_AT_MAGIC = 0,           /* u32 */
-    MODEL_AT_SIZE = 4,            /* u32, of the whole block */
-    MODEL_AT_CRC32 = 8,           /* u32, IEEE 802.3 (reflected, as zlib's), over bytes 12 ... size - 1 */
-    MODEL_AT_VERSION = 12,        /* u16 */
-    MODEL_AT_FLAGS = 14,          /* u16, MODEL_FLAG_... */
-    MODEL_AT_VERTICES = 16,       /* u32 */
-    MODEL_AT_FACES = 20,          /* u32 */
-    MODEL_AT_CLUSTERS = 24,       /* u32 */
-    MODEL_AT_SOURCE_FACES = 28,   /* u32 */
-    MODEL_AT_MATERIALS = 32,      /* u16, 1 ... 256 */
-    MODEL_AT_CLUSTER_MAX = 34,    /* u16, vertices of the largest cluster, 3 ... 255 */
-    MODEL_AT_CORNERS_MAX = 36,    /* u16, corners of the largest face, 3 ... 255 */
-    MODEL_AT_RADIUS = 38,         /* u16, bounding sphere */
-    MODEL_AT_CENTRE = 40,         /* 3 x i16 */
-    MODEL_AT_STEP_EXPONENT = 46,  /* i16 */
-    MODEL_AT_STEP_MANTISSA = 48,  /* u32, > 0 */
-    MODEL_AT_OFFSET = 52,         /* 3 x i32 */
-    MODEL_AT_POSITIONS = 64,      /* u32 byte offset of the section, and so on */
+    MODEL_AT_MAGIC = 0,          /* u32 */
+    MODEL_AT_SIZE = 4,           /* u32, of the whole block */
+    MODEL_AT_CRC32 = 8,          /* u32, IEEE 802.3 (reflected, as zlib's), over bytes 12 ... size - 1 */
+    MODEL_AT_VERSION = 12,       /* u16 */
+    MODEL_AT_FLAGS = 14,         /* u16, MODEL_FLAG_... */
+    MODEL_AT_VERTICES = 16,      /* u32 */
+    MODEL_AT_FACES = 20,         /* u32 */
+    MODEL_AT_CLUSTERS = 24,      /* u32 */
+    MODEL_AT_SOURCE_FACES = 28,  /* u32 */
+    MODEL_AT_MATERIALS = 32,     /* u16, 1 ... 256 */
+    MODEL_AT_CLUSTER_MAX = 34,   /* u16, vertices of the largest cluster, 3 ... 255 */
+    MODEL_AT_CORNERS_MAX = 36,   /* u16, corners of the largest face, 3 ... 255 */
+    MODEL_AT_RADIUS = 38,        /* u16, bounding sphere */
+    MODEL_AT_CENTRE = 40,        /* 3 x i16 */
+    MODEL_AT_STEP_EXPONENT = 46, /* i16 */
+    MODEL_AT_STEP_MANTISSA = 48, /* u32, > 0 */
+    MODEL_AT_OFFSET = 52,        /* 3 x i32 */
+    MODEL_AT_POSITIONS = 64,     /* u32 byte offset of the section, and so on */
     MODEL_AT_NORMALS = 68,
     MODEL_AT_CLUSTER_TABLE = 72,
     MODEL_AT_FACE_BYTES = 76,
@@ -63,12 +63,12 @@ enum {
  */
 #define MODEL_CLUSTER_BYTES 28u
 enum {
-    CLUSTER_AT_CENTRE = 0,      /* 3 x i16: sphere around its vertices */
-    CLUSTER_AT_RADIUS = 6,      /* u16, rounded up */
-    CLUSTER_AT_AXIS = 8,        /* 3 x i8: mean direction of the face normals, 120 ... 128 long */
-    CLUSTER_AT_CUTOFF = 11,     /* u8: the cluster faces away from an eye e when
-                                   dot(centre - e, axis) - radius * |axis| >= (cutoff / 254) * |axis| * |centre - e|
-                                   (with |axis| rounded up); 255 = never. See geometry/cull.c. */
+    CLUSTER_AT_CENTRE = 0,        /* 3 x i16: sphere around its vertices */
+    CLUSTER_AT_RADIUS = 6,        /* u16, rounded up */
+    CLUSTER_AT_AXIS = 8,          /* 3 x i8: mean direction of the face normals, 120 ... 128 long */
+    CLUSTER_AT_CUTOFF = 11,       /* u8: the cluster faces away from an eye e when
+                                     dot(centre - e, axis) - radius * |axis| >= (cutoff / 254) * |axis| * |centre - e|
+                                     (with |axis| rounded up); 255 = never. See geometry/cull.c. */
     CLUSTER_AT_FIRST_VERTEX = 12, /* u32 */
     CLUSTER_AT_FIRST_FACE = 16,   /* u32 */
     CLUSTER_AT_FACE_BYTES = 20,   /* u32, relative to the face bytes section */
@@ -83,7 +83,9 @@ enum { MODEL_FACE_CONVEX = 1 }; /* strictly: may be cut into a fan from its firs
 
 static inline uint16_t model_u16(const uint8_t *p) { return (uint16_t)(p[0] | p[1] << 8); }
 static inline int16_t model_i16(const uint8_t *p) { return (int16_t)model_u16(p); }
-static inline uint32_t model_u32(const uint8_t *p) { return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24; }
+static inline uint32_t model_u32(const uint8_t *p) {
+    return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
 
 /* CRC-32 as in the header; start with crc = 0. */
 uint32_t model_crc32(uint32_t crc, const uint8_t *bytes, size_t size_bytes);

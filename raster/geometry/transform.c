@@ -3,8 +3,8 @@
  * In perspective a window coordinate is X / W. Both rows are multiplied by one constant so that W = 65536 / 65528 * w / near:
  * then depth = 65536 / W needs no multiplication (Tuile's depth is 65528 at the near plane, which leaves room for rounding).
  *
- * Precision. Entries have 31 bits for the fast path and 14 more for the fine one: a fine value is exact to 2^-44 of the row's largest
- * value over the model, so that a ground plane of 60 000 units is still drawn right where it passes one unit below the eye.
+ * Precision. Entries have 31 bits for the fast path and 14 more for the fine one: a fine value is exact to 2^-44 of the row's
+ * largest value over the model, so that a ground plane of 60 000 units is still drawn right where it passes one unit below the eye.
  */
 #include "transform.h"
 
@@ -18,14 +18,18 @@ typedef struct wide_row {
 
 static wide_row_t row_scale(const wide_row_t *row, wide_t factor) {
     wide_row_t result;
-    for (int i = 0; i < 3; i++) { result.m[i] = wide_multiply(row->m[i], factor); }
+    for (int i = 0; i < 3; i++) {
+        result.m[i] = wide_multiply(row->m[i], factor);
+    }
     result.t = wide_multiply(row->t, factor);
     return result;
 }
 
 static wide_row_t row_add(const wide_row_t *a, const wide_row_t *b) {
     wide_row_t result;
-    for (int i = 0; i < 3; i++) { result.m[i] = wide_add(a->m[i], b->m[i]); }
+    for (int i = 0; i < 3; i++) {
+        result.m[i] = wide_add(a->m[i], b->m[i]);
+    }
     result.t = wide_add(a->t, b->t);
     return result;
 }
@@ -42,7 +46,9 @@ static void view_rows(wide_row_t view[3], const tuile_camera_t *camera, const tu
         view[i].t = (wide_t){0, 0};
         for (int j = 0; j < 3; j++) {
             int64_t sum = 0; /* Q4.60; the rows are unit vectors, so |sum| <= 2^60 but for rounding */
-            for (int k = 0; k < 3; k++) { sum += (int64_t)camera->rotation[i][k] * pose->rotation[k][j]; }
+            for (int k = 0; k < 3; k++) {
+                sum += (int64_t)camera->rotation[i][k] * pose->rotation[k][j];
+            }
             view[i].m[j] = wide_multiply(wide_make(sum, -60), step);
             view[i].t = wide_add(view[i].t, wide_multiply(view[i].m[j], wide_make(instance->model->offset[j], 0)));
             const wide_t distance = wide_make((int64_t)pose->translation[j] - camera->eye[j], -16);
@@ -132,14 +138,18 @@ static void eye_position(transform_t *transform, const tuile_camera_t *camera, c
         return;
     }
     transform->eye_shift = (uint8_t)(bits > 20 ? bits - 20 : 0);
-    for (int j = 0; j < 3; j++) { transform->eye[j] = (int32_t)wide_to_integer(eye[j], -(int32_t)transform->eye_shift); }
+    for (int j = 0; j < 3; j++) {
+        transform->eye[j] = (int32_t)wide_to_integer(eye[j], -(int32_t)transform->eye_shift);
+    }
 }
 
 static void view_direction(transform_t *transform, const tuile_camera_t *camera, const tuile_instance_t *instance) {
     transform->eye_shift = 0;
     for (int j = 0; j < 3; j++) {
         int64_t sum = 0; /* -third row of the view rotation times the pose's, Q4.60 */
-        for (int k = 0; k < 3; k++) { sum -= (int64_t)camera->rotation[2][k] * instance->pose.rotation[k][j]; }
+        for (int k = 0; k < 3; k++) {
+            sum -= (int64_t)camera->rotation[2][k] * instance->pose.rotation[k][j];
+        }
         transform->eye[j] = (int32_t)(sum >> 40);
     }
 }
@@ -160,7 +170,8 @@ static int check(const tuile_scene_t *scene, const tuile_instance_t *instance) {
 static int perspective_rows(transform_t *transform, const tuile_camera_t *camera, const tuile_model_t *model,
                             const wide_row_t view[3]) {
     const wide_t near = q16(camera->near);
-    const wide_t factor = wide_multiply(wide_reciprocal(near), wide_multiply(wide_make(65536, 0), wide_reciprocal(wide_make(65528, 0))));
+    const wide_t factor =
+        wide_multiply(wide_reciprocal(near), wide_multiply(wide_make(65536, 0), wide_reciprocal(wide_make(65528, 0))));
     wide_row_t w = row_scale(&view[2], wide_negate(factor));
     wide_row_t x = row_scale(&view[0], wide_multiply(q16(camera->focal_x), factor));
     wide_row_t y = row_scale(&view[1], wide_negate(wide_multiply(q16(camera->focal_y), factor)));
@@ -198,7 +209,8 @@ static int orthographic_rows(transform_t *transform, const tuile_camera_t *camer
     x.t = wide_add(x.t, q16(camera->centre_x));
     y.t = wide_add(y.t, q16(camera->centre_y));
     /* depth = 8 + 65520 * (far - distance) / (far - near), distance = -view z */
-    const wide_t per_unit = wide_multiply(wide_make(65520, 0), wide_reciprocal(wide_make((int64_t)camera->far - camera->near, -16)));
+    const wide_t per_unit =
+        wide_multiply(wide_make(65520, 0), wide_reciprocal(wide_make((int64_t)camera->far - camera->near, -16)));
     wide_row_t depth = row_scale(&view[2], per_unit);
     depth.t = wide_add(depth.t, wide_add(wide_make(8, 0), wide_multiply(q16(camera->far), per_unit)));
 
@@ -246,13 +258,16 @@ int transform_make(transform_t *transform, const tuile_scene_t *scene, const tui
 /* row as a wide row again, in its own fine units. */
 static wide_row_t row_load(const transform_row_t *row) {
     wide_row_t result;
-    for (int i = 0; i < 3; i++) { result.m[i] = wide_make(row->m[i], 0); }
+    for (int i = 0; i < 3; i++) {
+        result.m[i] = wide_make(row->m[i], 0);
+    }
     result.t = wide_make(row->t, 0);
     return result;
 }
 
 /* sign * (row - bound * w) >= 0 as a plane; bound in pixels. */
-static void side_plane(const transform_t *transform, transform_plane_t *plane, const transform_row_t *row, int32_t bound_px, int sign) {
+static void side_plane(const transform_t *transform, transform_plane_t *plane, const transform_row_t *row, int32_t bound_px,
+                       int sign) {
     wide_row_t a = row_load(row);
     const wide_t bound = wide_make((int64_t)bound_px * -16, -transform->k); /* in fine units of row per unit of w */
     if (transform->perspective) {

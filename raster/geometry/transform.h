@@ -13,9 +13,9 @@
 #define LIGHT_MIN 2
 #define LIGHT_MAX 253
 
-/* An affine function of a quantised position q: the sum of (m[i] + low[i] / 2^14) * q[i], plus t, is the `fine` value, known to 2 units;
- * without `low` and divided by 2^16 it is the `coarse` one, known to 2 units of its own.
- * |m[i]| < 2^31, |low[i]| <= 2^13, and |fine| < 2^46 for every position inside the model's bounding sphere. */
+/* An affine function of a quantised position q: the sum of (m[i] + low[i] / 2^14) * q[i], plus t, is the `fine` value, known to 2
+ * units; without `low` and divided by 2^16 it is the `coarse` one, known to 2 units of its own. |m[i]| < 2^31, |low[i]| <= 2^13,
+ * and |fine| < 2^46 for every position inside the model's bounding sphere. */
 typedef struct transform_row {
     int32_t m[3];
     int16_t low[3];
@@ -35,11 +35,11 @@ typedef struct transform {
     /* Perspective: x = X/W, y = Y/W; orthographic: X, Y; third row W, or the depth itself. All fine values. */
     transform_row_t x, y, w;
     bool perspective;
-    int8_t k;              /* perspective: window coordinate in 1/16 pixel = X * 2^k / W, 0 <= k <= 32; orthographic: X * 2^k, k < 0 */
-    int8_t depth_shift;    /* perspective: depth in 1/256 step = reciprocal >> (depth_shift - n), geometry/vertex.c;
-                              orthographic: fine w >> depth_shift */
-    int64_t w_low, w_high; /* fine values between near and far plane */
-    int32_t w_fast;        /* coarse: from here on 32-bit arithmetic is exact enough (perspective) */
+    int8_t k;           /* perspective: window coordinate in 1/16 pixel = X * 2^k / W, 0 <= k <= 32; orthographic: X * 2^k, k < 0 */
+    int8_t depth_shift; /* perspective: depth in 1/256 step = reciprocal >> (depth_shift - n), geometry/vertex.c;
+                           orthographic: fine w >> depth_shift */
+    int64_t w_low, w_high;    /* fine values between near and far plane */
+    int32_t w_fast;           /* coarse: from here on 32-bit arithmetic is exact enough (perspective) */
     int32_t guard_x, guard_y; /* least window coordinates that a vertex may have, 1/16 pixel; they span GUARD_SPAN */
     /* Culling of clusters. */
     transform_plane_t planes[PLANE_COUNT];

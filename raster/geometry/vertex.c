@@ -1,10 +1,10 @@
 /* The vertex stage: each vertex of a surviving cluster once per pass.
  *
  * Perspective. With W normalised to 32 bits by n places, r = 2^62 / (W << n), so 1 / W = r * 2^(n - 62), and
- *     x in 1/16 pixel = X * 2^k / W = (X * r / 2^32) >> (30 - k - n)        depth in 1/256 = 2^24 * 2^ew / W = r >> (depth_shift - n).
- * Errors, in 1/16 pixel, for W >= w_fast: X cut to coarse 1/32, the product cut 1/8, r and W 2^-20 of |x|: below 1/5 in all, that is
- * 1/80 pixel before the snap. Vertices nearer than w_fast are projected from fine coordinates instead. The choice depends on
- * the vertex alone, so a vertex that stands in two clusters comes out the same in both.
+ *     x in 1/16 pixel = X * 2^k / W = (X * r / 2^32) >> (30 - k - n)        depth in 1/256 = 2^24 * 2^ew / W = r >> (depth_shift -
+ * n). Errors, in 1/16 pixel, for W >= w_fast: X cut to coarse 1/32, the product cut 1/8, r and W 2^-20 of |x|: below 1/5 in all,
+ * that is 1/80 pixel before the snap. Vertices nearer than w_fast are projected from fine coordinates instead. The choice depends
+ * on the vertex alone, so a vertex that stands in two clusters comes out the same in both.
  */
 #include "vertex.h"
 
@@ -81,7 +81,8 @@ static bool perspective(const transform_t *transform, const int16_t *q, const in
         uint32_t depth = r >> (depth_shift - n);
         if (depth < VERTEX_DEPTH_MIN) { depth = VERTEX_DEPTH_MIN; }
         *out = (vertex_t){(int16_t)x, (int16_t)y, depth << 8 | light};
-        if (TUILE_UNLIKELY((uint32_t)(x - low_x) >= GUARD_SPAN - 2 * GUARD_MARGIN || (uint32_t)(y - low_y) >= GUARD_SPAN - 2 * GUARD_MARGIN)) {
+        if (TUILE_UNLIKELY((uint32_t)(x - low_x) >= GUARD_SPAN - 2 * GUARD_MARGIN ||
+                           (uint32_t)(y - low_y) >= GUARD_SPAN - 2 * GUARD_MARGIN)) {
             *out = outside(light);
             any_outside = true;
         }

@@ -1,12 +1,12 @@
 /* The tile z-buffer (S4, S13): 16 bits of depth per pixel of one tile, whatever the size of the window.
  *
- * A tile row meets its faces in the order of their records: those whose bucket it is, and those carried from the row above. Both lists
- * are sorted by record, so one merge gives the order, and the first face wins a tie by coming first.
+ * A tile row meets its faces in the order of their records: those whose bucket it is, and those carried from the row above. Both
+ * lists are sorted by record, so one merge gives the order, and the first face wins a tie by coming first.
  *
- * One column (strips): a face is set up, drawn and, if it reaches beyond the strip, its state is written to the stream. The stream is
- * moved to the end of the free room first, so that the new one can grow where the old one was.
- * Several columns: all faces of the row enter the stream before the first tile is drawn; each tile draws from copies, so that tiles may
- * come in any order. Behind the last tile the states that reach further are moved on to the next row.
+ * One column (strips): a face is set up, drawn and, if it reaches beyond the strip, its state is written to the stream. The stream
+ * is moved to the end of the free room first, so that the new one can grow where the old one was. Several columns: all faces of the
+ * row enter the stream before the first tile is drawn; each tile draws from copies, so that tiles may come in any order. Behind the
+ * last tile the states that reach further are moved on to the next row.
  */
 #include "../frame/frame.h"
 
@@ -109,10 +109,10 @@ static uint16_t list_merge(const tuile_t *t, uint16_t a, uint16_t b) {
 
 /* Walks the faces of the current row in order: those of `list` and those of the old stream. */
 typedef struct walk {
-    uint16_t list;               /* records to be set up */
-    uint8_t *old, *old_end;      /* states carried from above */
-    uint8_t *out;                /* where the new stream grows */
-    uint16_t left, *left_end;    /* records that go on without a state */
+    uint16_t list;            /* records to be set up */
+    uint8_t *old, *old_end;   /* states carried from above */
+    uint8_t *out;             /* where the new stream grows */
+    uint16_t left, *left_end; /* records that go on without a state */
 } walk_t;
 
 static void walk_begin(tuile_t *t, walk_t *walk) {
@@ -204,7 +204,9 @@ static void row_gather(tuile_t *t, int32_t top) {
     state_t local, *state;
     const record_t *record;
     walk_begin(t, &walk);
-    while ((state = walk_next(t, &walk, &local, top, &record)) != NULL) { walk_keep(t, &walk, state); }
+    while ((state = walk_next(t, &walk, &local, top, &record)) != NULL) {
+        walk_keep(t, &walk, state);
+    }
     walk_end(t, &walk);
 }
 

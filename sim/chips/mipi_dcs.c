@@ -99,9 +99,7 @@ static void reset_registers(sim_dcs_t *dcs, uint64_t now_ns) {
 static void dcs_reset(sim_chip_t *chip, bool held, uint64_t now_ns) {
     sim_dcs_t *dcs = dcs_of(chip);
 
-    if (held && !dcs->held) {
-        dcs->held_since_ns = now_ns;
-    }
+    if (held && !dcs->held) { dcs->held_since_ns = now_ns; }
     if (!held && dcs->held) {
         if (now_ns - dcs->held_since_ns < dcs->part->reset_pulse_us * UINT64_C(1000) && !chip->fault.text[0]) {
             REFUSE(dcs, "%s: reset was held for %llu ns; it takes %u us", chip->name,
@@ -118,9 +116,7 @@ static void dcs_reset(sim_chip_t *chip, bool held, uint64_t now_ns) {
 
 static const sim_dcs_command_t *find(const sim_dcs_command_t *commands, size_t count, uint8_t code) {
     for (size_t i = 0; i < count; i++) {
-        if (commands[i].code == code) {
-            return &commands[i];
-        }
+        if (commands[i].code == code) { return &commands[i]; }
     }
     return NULL;
 }
@@ -149,12 +145,8 @@ static int check_window(sim_dcs_t *dcs) {
 }
 
 static int start_writing(sim_dcs_t *dcs, bool again) {
-    if (!dcs->awake) {
-        return REFUSE(dcs, "%s: memory write while asleep: nothing of it would be seen", dcs->chip.name);
-    }
-    if (check_window(dcs)) {
-        return -1;
-    }
+    if (!dcs->awake) { return REFUSE(dcs, "%s: memory write while asleep: nothing of it would be seen", dcs->chip.name); }
+    if (check_window(dcs)) { return -1; }
     if (again && !dcs->pointer_good) {
         return REFUSE(dcs, "%s: memory write continued (3Ch) without a memory write (2Ch) in this window", dcs->chip.name);
     }
@@ -217,9 +209,7 @@ static int vendor(sim_dcs_t *dcs) {
     const uint8_t *p = dcs->parameters;
     uint8_t code = dcs->command->code;
 
-    if (code == dcs->part->scan_command && dcs->parameter_count >= 2) {
-        dcs->scan = p[1];
-    }
+    if (code == dcs->part->scan_command && dcs->parameter_count >= 2) { dcs->scan = p[1]; }
     if (code == dcs->part->interface_command) {
         if ((p[0] & 0xFE) != 0 || p[1] != 0 || p[2] != 0) {
             return REFUSE(dcs, "%s: data format %02X %02X %02X (%02Xh) is not modelled", dcs->chip.name, p[0], p[1], p[2], code);
@@ -237,22 +227,14 @@ static int execute(sim_dcs_t *dcs, uint64_t now_ns) {
     switch (dcs->command->code) {
     case NOP:
     case NORON:
-    case IDMOFF:
-        return 0;
-    case SWRESET:
-        return software_reset(dcs, now_ns);
-    case SLPIN:
-        return sleep_in(dcs, now_ns);
-    case SLPOUT:
-        return sleep_out(dcs, now_ns);
+    case IDMOFF: return 0;
+    case SWRESET: return software_reset(dcs, now_ns);
+    case SLPIN: return sleep_in(dcs, now_ns);
+    case SLPOUT: return sleep_out(dcs, now_ns);
     case INVOFF:
-    case INVON:
-        dcs->inverted = dcs->command->code == INVON;
-        return 0;
+    case INVON: dcs->inverted = dcs->command->code == INVON; return 0;
     case DISPOFF:
-    case DISPON:
-        dcs->on = dcs->command->code == DISPON;
-        return 0;
+    case DISPON: dcs->on = dcs->command->code == DISPON; return 0;
     case CASET:
         dcs->columns = (range_t){(uint16_t)pair[0], (uint16_t)pair[1]};
         dcs->pointer_good = false;
@@ -262,33 +244,25 @@ static int execute(sim_dcs_t *dcs, uint64_t now_ns) {
         dcs->pointer_good = false;
         return check_range(dcs, "rows", dcs->rows, dcs->address_mode & MV ? dcs->part->width : dcs->part->height);
     case RAMWR:
-    case RAMWRC:
-        return start_writing(dcs, dcs->command->code == RAMWRC);
+    case RAMWRC: return start_writing(dcs, dcs->command->code == RAMWRC);
     case TEOFF:
-    case TEON:
-        dcs->chip.tearing = dcs->command->code == TEON;
-        return 0;
+    case TEON: dcs->chip.tearing = dcs->command->code == TEON; return 0;
     case MADCTL:
         dcs->address_mode = p[0] & 0xFC;
         dcs->pointer_good = false;
         return 0;
-    case COLMOD:
-        return set_pixel_format(dcs, p[0]);
+    case COLMOD: return set_pixel_format(dcs, p[0]);
     case VSCRDEF:
         return pair[0] == 0 && pair[1] == dcs->part->height && pair[2] == 0
                    ? 0
                    : REFUSE(dcs, "%s: a scrolling area other than all of it is not modelled", dcs->chip.name);
-    case VSCRSADD:
-        return pair[0] == 0 ? 0 : REFUSE(dcs, "%s: scrolling (37h) is not modelled", dcs->chip.name);
-    default:
-        return vendor(dcs);
+    case VSCRSADD: return pair[0] == 0 ? 0 : REFUSE(dcs, "%s: scrolling (37h) is not modelled", dcs->chip.name);
+    default: return vendor(dcs);
     }
 }
 
 static int check_previous(sim_dcs_t *dcs, uint8_t code) {
-    if (code == SWRESET) {
-        return 0; /* starting over is how one gets out of a transfer that broke off */
-    }
+    if (code == SWRESET) { return 0; /* starting over is how one gets out of a transfer that broke off */ }
     if (dcs->command && dcs->parameter_count < dcs->command->least) {
         return REFUSE(dcs, "%s: command %02Xh takes %u parameters and got %zu", dcs->chip.name, dcs->command->code,
                       dcs->command->least, dcs->parameter_count);
@@ -303,9 +277,7 @@ static int check_previous(sim_dcs_t *dcs, uint8_t code) {
 static int begin_command(sim_dcs_t *dcs, uint8_t code, uint64_t now_ns) {
     const sim_dcs_command_t *command = find(decoded, sizeof decoded / sizeof decoded[0], code);
 
-    if (check_previous(dcs, code)) {
-        return -1;
-    }
+    if (check_previous(dcs, code)) { return -1; }
     dcs->writing = false;
     dcs->command = NULL;
     dcs->cut_count = 0;
@@ -320,12 +292,8 @@ static int begin_command(sim_dcs_t *dcs, uint8_t code, uint64_t now_ns) {
     if (!command && memchr(not_modelled, code, sizeof not_modelled)) {
         return REFUSE(dcs, "%s: command %02Xh is not modelled", dcs->chip.name, code);
     }
-    if (!command) {
-        command = find(dcs->part->commands, dcs->part->command_count, code);
-    }
-    if (!command) {
-        return REFUSE(dcs, "%s: unknown command %02Xh", dcs->chip.name, code);
-    }
+    if (!command) { command = find(dcs->part->commands, dcs->part->command_count, code); }
+    if (!command) { return REFUSE(dcs, "%s: unknown command %02Xh", dcs->chip.name, code); }
     if (code == SLPIN || code == SLPOUT) {
         dcs->ready_ns = now_ns + dcs->part->settle_ms * UINT64_C(1000000);
         dcs->busy_with = code;
@@ -333,12 +301,8 @@ static int begin_command(sim_dcs_t *dcs, uint8_t code, uint64_t now_ns) {
     dcs->command = command;
     dcs->parameter_count = 0;
     if (command->least == 0) {
-        if (execute(dcs, now_ns)) {
-            return -1;
-        }
-        if (command->most == 0) {
-            dcs->command = NULL;
-        }
+        if (execute(dcs, now_ns)) { return -1; }
+        if (command->most == 0) { dcs->command = NULL; }
     }
     return 0;
 }
@@ -353,9 +317,7 @@ static void store(sim_dcs_t *dcs, uint32_t pixel) {
     uint32_t column = dcs->address_mode & MV ? dcs->row : dcs->column;
     uint32_t row = dcs->address_mode & MV ? dcs->column : dcs->row;
 
-    if (dcs->full && !dcs->wraps) {
-        return;
-    }
+    if (dcs->full && !dcs->wraps) { return; }
     column = dcs->address_mode & MX ? dcs->part->width - 1u - column : column;
     row = dcs->address_mode & MY ? dcs->part->height - 1u - row : row;
     *cell(dcs, column, row) = pixel;
@@ -373,9 +335,7 @@ static void pixel_byte(sim_dcs_t *dcs, uint8_t byte) {
     uint32_t red, green, blue;
 
     dcs->cut[dcs->cut_count++] = byte;
-    if (dcs->cut_count < pixel_bytes(dcs)) {
-        return;
-    }
+    if (dcs->cut_count < pixel_bytes(dcs)) { return; }
     dcs->cut_count = 0;
     if (pixel_bytes(dcs) == 2) {
         /* To 18 bits by repeating the highest bit of red and blue: EPF = 0. */
@@ -410,18 +370,14 @@ static int data_byte(sim_dcs_t *dcs, uint8_t byte, uint64_t now_ns) {
 }
 
 static int check_wire(sim_dcs_t *dcs) {
-    if (dcs->chip.fault.text[0]) {
-        return -1;
-    }
+    if (dcs->chip.fault.text[0]) { return -1; }
     return dcs->held ? REFUSE(dcs, "%s: traffic while reset is held", dcs->chip.name) : 0;
 }
 
 static int dcs_receive(sim_chip_t *chip, bool data, const uint8_t *bytes, size_t size_bytes, uint32_t clock_hz, uint64_t now_ns) {
     sim_dcs_t *dcs = dcs_of(chip);
 
-    if (check_wire(dcs)) {
-        return -1;
-    }
+    if (check_wire(dcs)) { return -1; }
     if (clock_hz > dcs->part->rated_clock_hz) {
         if (chip->warnings++ == 0) {
             sim_fail(&chip->warning, "%s: %s at %u Hz; the data sheet promises %u", chip->name, data ? "data" : "commands",
@@ -429,9 +385,7 @@ static int dcs_receive(sim_chip_t *chip, bool data, const uint8_t *bytes, size_t
         }
     }
     for (size_t i = 0; i < size_bytes; i++) {
-        if (data ? data_byte(dcs, bytes[i], now_ns) : begin_command(dcs, bytes[i], now_ns)) {
-            return -1;
-        }
+        if (data ? data_byte(dcs, bytes[i], now_ns) : begin_command(dcs, bytes[i], now_ns)) { return -1; }
     }
     return 0;
 }
@@ -441,9 +395,7 @@ static int dcs_read(sim_chip_t *chip, uint8_t command, uint8_t *bytes, size_t si
     uint8_t answer[3];
     size_t length = 1;
 
-    if (check_wire(dcs) || check_previous(dcs, command)) {
-        return -1;
-    }
+    if (check_wire(dcs) || check_previous(dcs, command)) { return -1; }
     if (now_ns < dcs->ready_ns) {
         return REFUSE(dcs, "%s: read %02Xh too early after a reset or a change of sleep", chip->name, command);
     }
@@ -453,18 +405,13 @@ static int dcs_read(sim_chip_t *chip, uint8_t command, uint8_t *bytes, size_t si
     case 0x0A: /* power mode: booster, awake, normal mode, on */
         answer[0] = (uint8_t)((dcs->awake ? 0x90 : 0) | 0x08 | (dcs->on ? 0x04 : 0));
         break;
-    case 0x0B:
-        answer[0] = dcs->address_mode;
-        break;
-    case 0x0C:
-        answer[0] = dcs->pixel_format;
-        break;
+    case 0x0B: answer[0] = dcs->address_mode; break;
+    case 0x0C: answer[0] = dcs->pixel_format; break;
     case 0xD3:
         memcpy(answer, dcs->part->id4, 3);
         length = 3;
         break;
-    default:
-        return REFUSE(dcs, "%s: reading %02Xh is not modelled", chip->name, command);
+    default: return REFUSE(dcs, "%s: reading %02Xh is not modelled", chip->name, command);
     }
     if (size_bytes > length) {
         return REFUSE(dcs, "%s: %02Xh answers with %zu bytes, not %zu", chip->name, command, length, size_bytes);
@@ -485,9 +432,7 @@ static int dcs_glass(const sim_chip_t *chip, sim_picture_t *out, sim_error_t *er
     /* SS reverses the three dots of a pixel along with the pixels. */
     bool exchanged = (((dcs->address_mode & BGR) != 0) != dcs->module.bgr) != ss;
 
-    if (sim_picture_create(out, width, height, error)) {
-        return -1;
-    }
+    if (sim_picture_create(out, width, height, error)) { return -1; }
     for (uint32_t y = 0; y < height; y++) {
         for (uint32_t x = 0; x < width; x++) {
             uint32_t pixel = *cell(dcs, columns_reversed ? width - 1 - x : x, rows_reversed ? height - 1 - y : y);
@@ -519,9 +464,7 @@ sim_chip_t *sim_dcs_create(const sim_dcs_part_t *part, const sim_dcs_module_t *m
     size_t count = (size_t)part->width * part->height;
     uint32_t noise = 0x2545F491;
 
-    if (dcs) {
-        dcs->memory = calloc(count, sizeof *dcs->memory);
-    }
+    if (dcs) { dcs->memory = calloc(count, sizeof *dcs->memory); }
     if (!dcs || !dcs->memory) {
         free(dcs);
         sim_fail(error, "no memory for a model of the %s", part->name);

@@ -100,9 +100,7 @@ typedef struct normals {
 static bool add_triangle(normals_t *normals, const solid_t *solid, const uint32_t *corners, uint32_t a, uint32_t b, uint32_t c) {
     const int16_t *p = solid->vertices[corners[a]].position, *q = solid->vertices[corners[b]].position;
     const int16_t *r = solid->vertices[corners[c]].position;
-    if (!mesh_reserve(&normals->exact, &normals->capacity, normals->count + 1, sizeof *normals->exact)) {
-        return false;
-    }
+    if (!mesh_reserve(&normals->exact, &normals->capacity, normals->count + 1, sizeof *normals->exact)) { return false; }
     int64_t *normal = normals->exact[normals->count];
     for (int k = 0; k < 3; k++) {
         int y = (k + 1) % 3, z = (k + 2) % 3;
@@ -120,9 +118,7 @@ static bool exactly_planar(const solid_t *solid, const solid_face_t *face) {
             off += (mesh_int128_t)face->normal[k] *
                    (solid->vertices[corners[i]].position[k] - solid->vertices[corners[0]].position[k]);
         }
-        if (off != 0) {
-            return false;
-        }
+        if (off != 0) { return false; }
     }
     return true;
 }
@@ -130,16 +126,12 @@ static bool exactly_planar(const solid_t *solid, const solid_face_t *face) {
 /* A convex polygon may be drawn as the fan from its first corner, so it is that fan which counts. */
 static bool add_face(normals_t *normals, const solid_t *solid, const solid_face_t *face) {
     const uint32_t *corners = solid->corners + face->first;
-    if (!mesh_reserve(&normals->exact, &normals->capacity, normals->count + 1, sizeof *normals->exact)) {
-        return false;
-    }
+    if (!mesh_reserve(&normals->exact, &normals->capacity, normals->count + 1, sizeof *normals->exact)) { return false; }
     for (int k = 0; k < 3; k++) {
         normals->exact[normals->count][k] = face->normal[k];
     }
     normals->count++;
-    if (face->count == 3 || exactly_planar(solid, face)) {
-        return true;
-    }
+    if (face->count == 3 || exactly_planar(solid, face)) { return true; }
     if (face->convex) {
         bool done = true;
         for (uint32_t i = 1; done && i + 1 < face->count; i++) {

@@ -19,16 +19,10 @@ int mesh_read_file(const char *path, char **text, size_t *size_bytes, sim_error_
     struct stat status;
     *text = NULL;
     *size_bytes = 0;
-    if (stat(path, &status)) {
-        return sim_fail(error, "%s: %s; check the name", path, strerror(errno));
-    }
-    if (S_ISDIR(status.st_mode)) {
-        return sim_fail(error, "%s: is a folder; name a model file in it", path);
-    }
+    if (stat(path, &status)) { return sim_fail(error, "%s: %s; check the name", path, strerror(errno)); }
+    if (S_ISDIR(status.st_mode)) { return sim_fail(error, "%s: is a folder; name a model file in it", path); }
     FILE *file = fopen(path, "rb");
-    if (!file) {
-        return sim_fail(error, "%s: %s; check its permissions", path, strerror(errno));
-    }
+    if (!file) { return sim_fail(error, "%s: %s; check its permissions", path, strerror(errno)); }
     size_t capacity = 0, used = 0, got = 0;
     bool room = true;
     do { /* not by the size of stat, which pipes do not have */
@@ -36,10 +30,7 @@ int mesh_read_file(const char *path, char **text, size_t *size_bytes, sim_error_
         got = room ? fread(*text + used, 1, 65536, file) : 0;
         used += got;
     } while (got);
-    const char *trouble = ferror(file) ? strerror(errno)
-                          : !room      ? "out of memory"
-                          : used == 0  ? "is empty; export it again"
-                                       : NULL;
+    const char *trouble = ferror(file) ? strerror(errno) : !room ? "out of memory" : used == 0 ? "is empty; export it again" : NULL;
     (void)fclose(file);
     if (trouble) {
         free(*text);
@@ -62,27 +53,21 @@ typedef struct lines {
 
 /* The next line, NUL in place of its newline, or NULL. joins: a backslash at its end joins the next to it. */
 static char *next_line(lines_t *lines, bool joins) {
-    if (lines->at >= lines->end) {
-        return NULL;
-    }
+    if (lines->at >= lines->end) { return NULL; }
     char *line = lines->at, *p = line;
     lines->number += 1 + lines->joined;
     lines->joined = 0;
     for (; p < lines->end && *p != '\n' && *p != '\r'; p++) {
         if (joins && *p == '\\' && (p[1] == '\n' || (p[1] == '\r' && p[2] == '\n'))) {
             *p++ = ' ';
-            if (*p == '\r') {
-                *p++ = ' ';
-            }
+            if (*p == '\r') { *p++ = ' '; }
             *p = ' ';
             lines->joined++;
         }
     }
     lines->terminated = p < lines->end;
     lines->at = p + 1;
-    if (p < lines->end && *p == '\r' && p[1] == '\n') {
-        lines->at++;
-    }
+    if (p < lines->end && *p == '\r' && p[1] == '\n') { lines->at++; }
     *p = 0;
     return line;
 }
@@ -94,9 +79,7 @@ static int read_point(char *p, double point[3]) {
     for (int k = 0; k < 3; k++) {
         char *after;
         point[k] = strtod(p, &after);
-        if (after == p) {
-            return k;
-        }
+        if (after == p) { return k; }
         p = after;
     }
     return 3;
@@ -104,9 +87,7 @@ static int read_point(char *p, double point[3]) {
 
 static bool fits(const double point[3]) {
     for (int k = 0; k < 3; k++) {
-        if (!(fabs(point[k]) <= (double)FLT_MAX)) {
-            return false;
-        }
+        if (!(fabs(point[k]) <= (double)FLT_MAX)) { return false; }
     }
     return true;
 }
@@ -171,9 +152,7 @@ static int check_obj_face(const char *path, const lines_t *lines, char *p, const
                                 lines->number, p);
             }
             p = after;
-            if (*p != '/') {
-                break;
-            }
+            if (*p != '/') { break; }
             p++;
         }
         p += strcspn(p, " \t\v\f");
@@ -203,9 +182,7 @@ static int check_obj(const char *path, char *text, size_t size_bytes, sim_error_
         so_far.normals += is_keyword(line, "vn");
         if (is_keyword(line, "v")) {
             so_far.vertices++;
-            if (check_point(path, &lines, line + 1, (size_t)so_far.vertices, error)) {
-                return -1;
-            }
+            if (check_point(path, &lines, line + 1, (size_t)so_far.vertices, error)) { return -1; }
         } else if (is_keyword(line, "f") && check_obj_face(path, &lines, line + 1, &so_far, &in_all, error)) {
             return -1;
         }
@@ -219,9 +196,7 @@ static char *next_off_line(lines_t *lines) {
     for (char *line; (line = next_line(lines, false));) {
         line = skip_blanks(line);
         line[strcspn(line, "#")] = 0;
-        if (*line) {
-            return line;
-        }
+        if (*line) { return line; }
     }
     return NULL;
 }
@@ -234,9 +209,7 @@ static int check_off(const char *path, char *text, size_t size_bytes, sim_error_
         return 0; /* without its keyword, or in more dimensions: Assimp's to judge */
     }
     line = skip_blanks(line + strcspn(line, " \t"));
-    if (!*line) {
-        line = next_off_line(&lines);
-    }
+    if (!*line) { line = next_off_line(&lines); }
     char *after = line;
     long long counts[2] = {-1, -1};
     for (int i = 0; line && i < 2; i++) {
@@ -255,9 +228,7 @@ static int check_off(const char *path, char *text, size_t size_bytes, sim_error_
                 path, counts[0], counts[1], i);
         }
         if (i < counts[0]) {
-            if (check_point(path, &lines, line, (size_t)i, error)) {
-                return -1;
-            }
+            if (check_point(path, &lines, line, (size_t)i, error)) { return -1; }
             continue;
         }
         long long corners = strtoll(line, &after, 10);
@@ -279,11 +250,7 @@ int mesh_check_text(const char *path, char *text, size_t size_bytes, sim_error_t
     if (!dot || size_bytes < 2 || !memcmp(text, "\xff\xfe", 2) || !memcmp(text, "\xfe\xff", 2)) {
         return 0; /* UTF-16, which Assimp converts */
     }
-    if (!strncmp(text, "ply\n", 4) || !strncmp(text, "ply\r", 4)) {
-        return mesh_check_ply(path, text, size_bytes, error);
-    }
-    if (!strcasecmp(dot, ".obj")) {
-        return check_obj(path, text, size_bytes, error);
-    }
+    if (!strncmp(text, "ply\n", 4) || !strncmp(text, "ply\r", 4)) { return mesh_check_ply(path, text, size_bytes, error); }
+    if (!strcasecmp(dot, ".obj")) { return check_obj(path, text, size_bytes, error); }
     return strcasecmp(dot, ".off") ? 0 : check_off(path, text, size_bytes, error);
 }

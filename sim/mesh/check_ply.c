@@ -41,9 +41,7 @@ static char type_of(const char *name) {
                  {"ushort", 'H'}, {"uint16", 'H'},  {"int", 'w'},    {"int32", 'w'},  {"uint", 'W'},  {"uint32", 'W'},
                  {"float", 'f'},  {"float32", 'f'}, {"double", 'd'}, {"float64", 'd'}};
     for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
-        if (!strcmp(types[i].name, name)) {
-            return types[i].type;
-        }
+        if (!strcmp(types[i].name, name)) { return types[i].type; }
     }
     return 0;
 }
@@ -60,9 +58,7 @@ static bool read_number(ply_t *ply, char type, double *value) {
         return found;
     }
     size_t size = size_of(type);
-    if ((size_t)(ply->end - ply->at) < size) {
-        return false;
-    }
+    if ((size_t)(ply->end - ply->at) < size) { return false; }
     uint64_t bits = 0;
     for (size_t i = 0; i < size; i++) {
         size_t from = ply->format == PLY_LITTLE ? i : size - 1 - i;
@@ -119,9 +115,7 @@ static int read_header(ply_t *ply, sim_error_t *error) {
         char *line = ply->at;
         size_t length = strcspn(line, "\r\n");
         char *after = line + length;
-        if (*after == '\r' && after[1] == '\n') {
-            *after++ = 0;
-        }
+        if (*after == '\r' && after[1] == '\n') { *after++ = 0; }
         done = !strncmp(line, "end_header", 10);
         ply->at = after < ply->end ? after + 1 : ply->end;
         *after = 0;
@@ -136,9 +130,7 @@ static int read_header(ply_t *ply, sim_error_t *error) {
             if (sscanf(line, "element %31s %llu", element->name, &element->count) != 2) {
                 return sim_fail(error, "%s: its header has an element without a name or a count; export it again", ply->path);
             }
-            if (!strcmp(element->name, "vertex")) {
-                ply->vertices = element->count;
-            }
+            if (!strcmp(element->name, "vertex")) { ply->vertices = element->count; }
         } else if (!strncmp(line, "property ", 9) && read_property(ply, line + 9, error)) {
             return -1;
         }
@@ -154,16 +146,11 @@ static int cut_short(const ply_t *ply, const ply_element_t *element, unsigned lo
 static int check_list(ply_t *ply, const ply_element_t *element, const ply_property_t *property, unsigned long long item,
                       sim_error_t *error) {
     double count = 0, index;
-    if (!read_number(ply, property->count_type, &count) || !(count >= 0)) {
-        return cut_short(ply, element, item, error);
-    }
+    if (!read_number(ply, property->count_type, &count) || !(count >= 0)) { return cut_short(ply, element, item, error); }
     for (uint64_t left = count < 1e15 ? (uint64_t)count : UINT64_MAX; left; left--) { /* the end of the file comes first */
-        if (!read_number(ply, property->type, &index)) {
-            return cut_short(ply, element, item, error);
-        }
+        if (!read_number(ply, property->type, &index)) { return cut_short(ply, element, item, error); }
         if (property->role == 'i' && !(index >= 0 && index < (double)ply->vertices)) {
-            return sim_fail(error,
-                            "%s: face %llu asks for vertex %.0f, but there are %llu (from 0); repair it or export it again",
+            return sim_fail(error, "%s: face %llu asks for vertex %.0f, but there are %llu (from 0); repair it or export it again",
                             ply->path, item, index, ply->vertices);
         }
     }
@@ -176,9 +163,7 @@ static int check_element(ply_t *ply, const ply_element_t *element, sim_error_t *
             const ply_property_t *property = &ply->properties[p];
             double value;
             if (property->count_type) {
-                if (check_list(ply, element, property, item, error)) {
-                    return -1;
-                }
+                if (check_list(ply, element, property, item, error)) { return -1; }
             } else if (!read_number(ply, property->type, &value)) {
                 return cut_short(ply, element, item, error);
             } else if (property->role && !(fabs(value) <= (double)FLT_MAX)) {
@@ -192,9 +177,7 @@ static int check_element(ply_t *ply, const ply_element_t *element, sim_error_t *
 
 int mesh_check_ply(const char *path, char *text, size_t size_bytes, sim_error_t *error) {
     ply_t *ply = mesh_array(1, sizeof *ply);
-    if (!ply) {
-        return sim_fail(error, "%s: out of memory", path);
-    }
+    if (!ply) { return sim_fail(error, "%s: out of memory", path); }
     ply->path = path;
     ply->at = text;
     ply->end = text + size_bytes;

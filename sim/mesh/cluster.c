@@ -65,9 +65,7 @@ static void tally_add(grower_t *g, tally_t *tally, uint32_t face_index) {
     const solid_face_t *face = &g->solid->faces[face_index];
     for (uint32_t i = 0; i < face->count; i++) {
         uint32_t v = g->solid->corners[face->first + i];
-        if (g->seen[v] == g->round) {
-            continue;
-        }
+        if (g->seen[v] == g->round) { continue; }
         g->seen[v] = g->round;
         tally->vertices++;
         for (int k = 0; k < 3; k++) {
@@ -89,20 +87,12 @@ static double cost_of(grower_t *g, const group_t *a, const group_t *b, uint32_t 
     g->round++;
     for (int l = 0; l < 2; l++) {
         for (size_t i = 0; lists[l] && i < lists[l]->face_count; i++) {
-            if (lists[l]->faces[i] != left_out) {
-                tally_add(g, &tally, lists[l]->faces[i]);
-            }
+            if (lists[l]->faces[i] != left_out) { tally_add(g, &tally, lists[l]->faces[i]); }
         }
     }
-    if (added != NOT_HERE) {
-        tally_add(g, &tally, added);
-    }
-    if (tally.faces == 0) {
-        return 0;
-    }
-    if (tally.faces > FACES_MAX || (tally.faces > 1 && tally.vertices > VERTICES_MAX)) {
-        return INFINITY;
-    }
+    if (added != NOT_HERE) { tally_add(g, &tally, added); }
+    if (tally.faces == 0) { return 0; }
+    if (tally.faces > FACES_MAX || (tally.faces > 1 && tally.vertices > VERTICES_MAX)) { return INFINITY; }
     double length = sqrt(tally.sum[0] * tally.sum[0] + tally.sum[1] * tally.sum[1] + tally.sum[2] * tally.sum[2]);
     double cosine = 1, diagonal = 0;
     for (int l = 0; l < 2; l++) {
@@ -130,9 +120,7 @@ static double cost_of(grower_t *g, const group_t *a, const group_t *b, uint32_t 
 
 /* Equal gains are common (regular meshes); the rest of the order keeps the result the same everywhere. */
 static bool better(const candidate_t *x, const candidate_t *y) {
-    if (x->gain > y->gain || x->gain < y->gain) {
-        return x->gain > y->gain;
-    }
+    if (x->gain > y->gain || x->gain < y->gain) { return x->gain > y->gain; }
     return x->a != y->a ? x->a < y->a : x->b < y->b;
 }
 
@@ -152,12 +140,8 @@ static candidate_t pop(grower_t *g) {
     candidate_t best = g->heap[0], last = g->heap[--g->heap_count];
     size_t at = 0;
     for (size_t child = 1; child < g->heap_count; child = 2 * at + 1) {
-        if (child + 1 < g->heap_count && better(&g->heap[child + 1], &g->heap[child])) {
-            child++;
-        }
-        if (!better(&g->heap[child], &last)) {
-            break;
-        }
+        if (child + 1 < g->heap_count && better(&g->heap[child + 1], &g->heap[child])) { child++; }
+        if (!better(&g->heap[child], &last)) { break; }
         g->heap[at] = g->heap[child];
         at = child;
     }
@@ -176,18 +160,14 @@ static uint32_t find(grower_t *g, uint32_t group) {
 }
 
 static void propose(grower_t *g, uint32_t a, uint32_t b) {
-    if (a == b) {
-        return;
-    }
+    if (a == b) { return; }
     if (a > b) {
         uint32_t swap = a;
         a = b;
         b = swap;
     }
     double gain = g->groups[a].cost + g->groups[b].cost - cost_of(g, &g->groups[a], &g->groups[b], NOT_HERE, NOT_HERE);
-    if (gain > 0) {
-        push(g, (candidate_t){gain, a, b, g->groups[a].version, g->groups[b].version});
-    }
+    if (gain > 0) { push(g, (candidate_t){gain, a, b, g->groups[a].version, g->groups[b].version}); }
 }
 
 static void append(grower_t *g, uint32_t **list, size_t *count, size_t *capacity, uint32_t item) {
@@ -270,9 +250,7 @@ static keyed_face_t *sorted_groups(const grower_t *g, size_t *count) {
             order[(*count)++] = (keyed_face_t){solid_z_order(g->solid, g->groups[k].faces, g->groups[k].face_count), k};
         }
     }
-    if (order) {
-        qsort(order, *count, sizeof *order, keyed_face_order);
-    }
+    if (order) { qsort(order, *count, sizeof *order, keyed_face_order); }
     return order;
 }
 
@@ -293,9 +271,7 @@ static void merge_loose(grower_t *g) {
             }
         }
         free(order);
-        if (count >= before) {
-            return;
-        }
+        if (count >= before) { return; }
         before = count;
         merge_all(g);
     }
@@ -326,12 +302,8 @@ static void trade(grower_t *g, const uint32_t *first, const uint32_t *near) {
             double most = 1e-6, without = -1;
             for (uint32_t n = first[f]; n < first[f + 1]; n++) {
                 uint32_t other = g->group_of[near[n]];
-                if (other == own || other == best) {
-                    continue;
-                }
-                if (without < 0) {
-                    without = cost_of(g, &g->groups[own], NULL, f, NOT_HERE);
-                }
+                if (other == own || other == best) { continue; }
+                if (without < 0) { without = cost_of(g, &g->groups[own], NULL, f, NOT_HERE); }
                 double gain =
                     g->groups[own].cost + g->groups[other].cost - without - cost_of(g, &g->groups[other], NULL, NOT_HERE, f);
                 if (gain > most) {
@@ -365,9 +337,7 @@ static void grow_freely(grower_t *g) {
         first[f + 1] = first[f] + (uint32_t)group->near_count;
         for (size_t i = 0; i < group->near_count; i++) {
             near[first[f] + i] = group->near[i];
-            if (group->near[i] > f) {
-                propose(g, f, group->near[i]);
-            }
+            if (group->near[i] > f) { propose(g, f, group->near[i]); }
         }
     }
     merge_all(g);
@@ -375,9 +345,7 @@ static void grow_freely(grower_t *g) {
     for (uint32_t f = 0; f < count && !g->failed; f++) {
         g->group_of[f] = find(g, f);
     }
-    if (!g->failed) {
-        trade(g, first, near);
-    }
+    if (!g->failed) { trade(g, first, near); }
     free(first);
     free(near);
 }
@@ -415,15 +383,11 @@ static bool begin(grower_t *g) {
     g->group_of = mesh_array(solid->face_count, sizeof *g->group_of);
     g->seen = mesh_array(solid->vertex_count, sizeof *g->seen);
     g->met = mesh_array(solid->face_count, sizeof *g->met);
-    if (!g->groups || !g->parent || !g->group_of || !g->seen || !g->met) {
-        return false;
-    }
+    if (!g->groups || !g->parent || !g->group_of || !g->seen || !g->met) { return false; }
     for (uint32_t f = 0; f < solid->face_count; f++) {
         g->parent[f] = f;
         add_face(g, &g->groups[f], f);
-        if (!g->failed) {
-            g->groups[f].cost = cost_of(g, &g->groups[f], NULL, NOT_HERE, NOT_HERE);
-        }
+        if (!g->failed) { g->groups[f].cost = cost_of(g, &g->groups[f], NULL, NOT_HERE, NOT_HERE); }
     }
     return !g->failed;
 }

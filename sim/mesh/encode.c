@@ -90,9 +90,7 @@ static void encode_cluster(encoder_t *e, size_t k) {
     bounds_sphere_t sphere = bounds_of_vertices(e->solid, e->vertices, vertices);
     bounds_cone_t cone;
     e->failed = e->failed || bounds_of_normals(e->solid, faces, count, &cone);
-    if (e->failed) {
-        return;
-    }
+    if (e->failed) { return; }
     align(e, &e->faces);
     for (int i = 0; i < 3; i++) {
         put_signed(e, &e->table, sphere.centre[i], 2);
@@ -172,9 +170,7 @@ static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32
         e->local[v] = (uint32_t)v;
     }
     bounds_sphere_t sphere = bounds_of_vertices(solid, e->local, solid->vertex_count);
-    if (e->failed) {
-        return;
-    }
+    if (e->failed) { return; }
     uint8_t *header = out->bytes;
     write_u32(header + MODEL_AT_MAGIC, MODEL_MAGIC);
     write_u32(header + MODEL_AT_SIZE, (uint32_t)out->size);
@@ -226,9 +222,7 @@ int solid_encode(const solid_t *solid, const clusters_t *clusters, const mesh_t 
     }
     bool source32 = encode_source(&e, mesh->source_face_count);
     align(&e, &e.faces);
-    if (!e.failed) {
-        finish(&e, &out, mesh, source32);
-    }
+    if (!e.failed) { finish(&e, &out, mesh, source32); }
     sheet_t *sections[] = {&e.positions, &e.normals, &e.table, &e.faces, &e.face_normals, &e.materials, &e.source};
     for (size_t s = 0; s < sizeof sections / sizeof sections[0]; s++) {
         free(sections[s]->bytes);

@@ -24,9 +24,7 @@ static void catch_log(const char *message, char *user) {
     static const char *const damage[] = {"unexpected EOF", "unexpected end", "Unexpected end",
                                          "is incorrect",   "out of range",   "truncated"};
     log_catch_t *caught = (log_catch_t *)(void *)user;
-    if (caught->text[0] || (strncmp(message, "Warn", 4) && strncmp(message, "Error", 5))) {
-        return;
-    }
+    if (caught->text[0] || (strncmp(message, "Warn", 4) && strncmp(message, "Error", 5))) { return; }
     const char *text = strstr(message, ": ");
     text = text ? text + 2 : message;
     for (size_t i = 0; i < sizeof damage / sizeof *damage; i++) {
@@ -92,9 +90,7 @@ static bool transform_normal(const matrix_t *matrix, double sign, const struct a
         squares += to[i] * to[i];
     }
     double length = sqrt(squares);
-    if (!(length > 0) || !isfinite(length)) {
-        return false;
-    }
+    if (!(length > 0) || !isfinite(length)) { return false; }
     for (int i = 0; i < 3; i++) {
         to[i] = to[i] / length + 0.0;
     }
@@ -177,9 +173,7 @@ static int collect_face(collector_t *c, const struct aiMesh *from, const struct 
         mesh->corners[mesh->corner_count + i] = (uint32_t)(base + face->mIndices[from_corner]);
     }
     memcpy(c->colour[mesh->face_count], colour, 3);
-    if (from->mColors[0]) {
-        mean_colour(from, face, c->colour[mesh->face_count]);
-    }
+    if (from->mColors[0]) { mean_colour(from, face, c->colour[mesh->face_count]); }
     mesh->faces[mesh->face_count++] =
         (mesh_face_t){.first = (uint32_t)mesh->corner_count, .count = count, .source = (uint32_t)(mesh->source_face_count - 1)};
     mesh->corner_count += count;
@@ -194,9 +188,7 @@ static int collect_mesh(collector_t *c, const struct aiMesh *from, const matrix_
     if (from->mNumFaces && !from->mVertices) {
         return sim_fail(c->error, "%s: mesh \"%.60s\" has faces but no vertices; export it again", c->path, from->mName.data);
     }
-    if (collect_vertices(c, from, matrix)) {
-        return -1;
-    }
+    if (collect_vertices(c, from, matrix)) { return -1; }
     material_colour(c->scene, from, colour);
     for (unsigned f = 0; f < from->mNumFaces; f++) {
         const struct aiFace *face = &from->mFaces[f];
@@ -208,16 +200,14 @@ static int collect_mesh(collector_t *c, const struct aiMesh *from, const matrix_
             }
         }
         if (face->mNumIndices == 0) {
-            return sim_fail(c->error, "%s: face %u of mesh \"%.60s\" has no corners; the file is damaged, export it again",
-                            c->path, f, from->mName.data);
+            return sim_fail(c->error, "%s: face %u of mesh \"%.60s\" has no corners; the file is damaged, export it again", c->path,
+                            f, from->mName.data);
         }
         if (face->mNumIndices < 3 && (from->mPrimitiveTypes & loose)) {
             c->mesh.loose_count++;
             continue;
         }
-        if (c->mesh.source_face_count++ >= UINT32_MAX - 1) {
-            return no_memory(c);
-        }
+        if (c->mesh.source_face_count++ >= UINT32_MAX - 1) { return no_memory(c); }
         if (face->mNumIndices < 3) {
             c->mesh.skipped_count++;
         } else if (collect_face(c, from, face, base, mirrored, colour)) {
@@ -237,14 +227,10 @@ static int collect_node(collector_t *c, const struct aiNode *node, const matrix_
             return sim_fail(c->error, "%s: node \"%.60s\" asks for mesh %u of %u; the file is damaged, export it again", c->path,
                             node->mName.data, node->mMeshes[m], c->scene->mNumMeshes);
         }
-        if (collect_mesh(c, c->scene->mMeshes[node->mMeshes[m]], &matrix)) {
-            return -1;
-        }
+        if (collect_mesh(c, c->scene->mMeshes[node->mMeshes[m]], &matrix)) { return -1; }
     }
     for (unsigned n = 0; n < node->mNumChildren; n++) { /* the RAW importer leaves gaps */
-        if (node->mChildren[n] && collect_node(c, node->mChildren[n], &matrix, depth + 1)) {
-            return -1;
-        }
+        if (node->mChildren[n] && collect_node(c, node->mChildren[n], &matrix, depth + 1)) { return -1; }
     }
     return 0;
 }
@@ -317,21 +303,15 @@ static int paint(collector_t *c) {
 
 static int collect(collector_t *c) {
     const matrix_t identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-    if (c->scene->mRootNode && collect_node(c, c->scene->mRootNode, &identity, 0)) {
-        return -1;
-    }
+    if (c->scene->mRootNode && collect_node(c, c->scene->mRootNode, &identity, 0)) { return -1; }
     bool bare = c->mesh.position_count == 0; /* no node has a mesh: then they stand as they are */
     for (unsigned m = 0; bare && m < c->scene->mNumMeshes; m++) {
-        if (collect_mesh(c, c->scene->mMeshes[m], &identity)) {
-            return -1;
-        }
+        if (collect_mesh(c, c->scene->mMeshes[m], &identity)) { return -1; }
     }
-    if (c->mesh.source_face_count && join(c)) {
-        return -1;
-    }
+    if (c->mesh.source_face_count && join(c)) { return -1; }
     if (c->mesh.face_count == 0) {
-        return sim_fail(c->error, "%s: no face with an area (%zu degenerate faces, %zu points and lines); nothing to draw",
-                        c->path, c->mesh.skipped_count, c->mesh.loose_count);
+        return sim_fail(c->error, "%s: no face with an area (%zu degenerate faces, %zu points and lines); nothing to draw", c->path,
+                        c->mesh.skipped_count, c->mesh.loose_count);
     }
     return paint(c) ? -1 : mesh_make_normals(&c->mesh, false, c->error);
 }
@@ -340,14 +320,10 @@ int mesh_import(mesh_t *mesh, const char *path, sim_error_t *error) {
     char *text;
     size_t size_bytes;
     memset(mesh, 0, sizeof *mesh);
-    if (mesh_read_file(path, &text, &size_bytes, error)) {
-        return -1;
-    }
+    if (mesh_read_file(path, &text, &size_bytes, error)) { return -1; }
     int status = mesh_check_text(path, text, size_bytes, error);
     free(text);
-    if (status) {
-        return -1;
-    }
+    if (status) { return -1; }
     log_catch_t caught = {{0}};
     struct aiLogStream stream = {catch_log, (char *)&caught};
     aiAttachLogStream(&stream); /* also keeps Assimp's messages off the console */

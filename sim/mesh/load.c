@@ -47,42 +47,31 @@ static int load_source(const char *path, size_t max_faces, uint8_t **bytes, size
                        sim_error_t *error) {
     mesh_t mesh;
     mesh_report_t counts = {0};
-    if (mesh_import(&mesh, path, error)) {
-        return -1;
-    }
+    if (mesh_import(&mesh, path, error)) { return -1; }
     int status = 0;
     bool few = !max_faces || mesh.face_count <= max_faces;
-    if (few) {
-        status = mesh_compile(&mesh, NULL, bytes, size_bytes, &counts, error);
-    }
+    if (few) { status = mesh_compile(&mesh, NULL, bytes, size_bytes, &counts, error); }
     if (!status && max_faces && (!few || counts.faces > max_faces)) {
         free(*bytes);
         *bytes = NULL;
         status = mesh_simplify(&mesh, max_faces, error);
-        if (!status) {
-            status = mesh_compile(&mesh, NULL, bytes, size_bytes, &counts, error);
-        }
+        if (!status) { status = mesh_compile(&mesh, NULL, bytes, size_bytes, &counts, error); }
     }
     if (status && error) { /* the later stages do not know the file */
         sim_error_t inner = *error;
         (void)sim_fail(error, "%s: %.400s", path, inner.text);
     }
     mesh_free(&mesh);
-    if (report) {
-        *report = counts;
-    }
+    if (report) { *report = counts; }
     return status;
 }
 
-int mesh_load(const char *path, size_t max_faces, uint8_t **bytes, size_t *size_bytes, mesh_report_t *report,
-              sim_error_t *error) {
+int mesh_load(const char *path, size_t max_faces, uint8_t **bytes, size_t *size_bytes, mesh_report_t *report, sim_error_t *error) {
     char *text;
     size_t length;
     *bytes = NULL;
     *size_bytes = 0;
-    if (mesh_read_file(path, &text, &length, error)) {
-        return -1;
-    }
+    if (mesh_read_file(path, &text, &length, error)) { return -1; }
     static const uint8_t magic[4] = {MODEL_MAGIC & 0xff, MODEL_MAGIC >> 8 & 0xff, MODEL_MAGIC >> 16 & 0xff, MODEL_MAGIC >> 24};
     if (length < sizeof magic || memcmp(text, magic, sizeof magic)) {
         free(text);

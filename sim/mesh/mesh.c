@@ -4,9 +4,7 @@
 #include <string.h>
 
 void mesh_free(mesh_t *mesh) {
-    if (!mesh) {
-        return;
-    }
+    if (!mesh) { return; }
     free(mesh->positions);
     free(mesh->normals);
     free(mesh->corners);
@@ -17,25 +15,17 @@ void mesh_free(mesh_t *mesh) {
 }
 
 bool mesh_reserve(void *array, size_t *capacity, size_t count, size_t item_bytes) {
-    if (count <= *capacity) {
-        return true;
-    }
+    if (count <= *capacity) { return true; }
     size_t wanted = *capacity < 64 ? 64 : *capacity;
     while (wanted < count) {
-        if (wanted > SIZE_MAX / 2) {
-            return false;
-        }
+        if (wanted > SIZE_MAX / 2) { return false; }
         wanted *= 2;
     }
-    if (wanted > SIZE_MAX / item_bytes) {
-        return false;
-    }
+    if (wanted > SIZE_MAX / item_bytes) { return false; }
     void *old;
     memcpy(&old, array, sizeof old);
     void *grown = realloc(old, wanted * item_bytes);
-    if (!grown) {
-        return false;
-    }
+    if (!grown) { return false; }
     memcpy(array, &grown, sizeof grown);
     *capacity = wanted;
     return true;
@@ -71,12 +61,8 @@ static int compile(const mesh_t *mesh, const mesh_options_t *options, uint8_t **
     clusters_t clusters = {0};
     size_t vertex_count = 0;
     int status = solid_quantise(&solid, mesh, options, error);
-    if (!status) {
-        status = clusters_grow(&clusters, &solid, options->keep_order, error);
-    }
-    if (!status) {
-        status = solid_encode(&solid, &clusters, mesh, bytes, size_bytes, &vertex_count, error);
-    }
+    if (!status) { status = clusters_grow(&clusters, &solid, options->keep_order, error); }
+    if (!status) { status = solid_encode(&solid, &clusters, mesh, bytes, size_bytes, &vertex_count, error); }
     if (!status && report) {
         *report = (mesh_report_t){.vertices = vertex_count,
                                   .faces = solid.face_count,
@@ -96,25 +82,17 @@ static int compile(const mesh_t *mesh, const mesh_options_t *options, uint8_t **
 int mesh_compile(const mesh_t *mesh, const mesh_options_t *options, uint8_t **bytes, size_t *size_bytes, mesh_report_t *report,
                  sim_error_t *error) {
     static const mesh_options_t defaults = {0};
-    if (!options) {
-        options = &defaults;
-    }
+    if (!options) { options = &defaults; }
     *bytes = NULL;
     *size_bytes = 0;
-    if (check(mesh, error)) {
-        return -1;
-    }
-    if (mesh->normal_count) {
-        return compile(mesh, options, bytes, size_bytes, report, error);
-    }
+    if (check(mesh, error)) { return -1; }
+    if (mesh->normal_count) { return compile(mesh, options, bytes, size_bytes, report, error); }
     /* Normals are made on the side: the caller's mesh is const, and its other arrays are only looked at. */
     mesh_t lit = *mesh;
     lit.normals = NULL;
     lit.corner_normals = NULL;
     int status = mesh_make_normals(&lit, options->keep_planar, error);
-    if (!status) {
-        status = compile(&lit, options, bytes, size_bytes, report, error);
-    }
+    if (!status) { status = compile(&lit, options, bytes, size_bytes, report, error); }
     free(lit.normals);
     free(lit.corner_normals);
     return status;

@@ -1,6 +1,6 @@
 /* The model compiler: a file of some format in, the bytes of geometry/model.h out.
  *
- *   import (Assimp)  ->  mesh_t  ->  simplify (meshoptimizer)  ->  check and split  ->  quantise  ->  cluster  ->  encode  ->  write
+ *   import (Assimp)  ->  mesh_t  ->  simplify (meshoptimizer)  ->  check and split  ->  quantise  ->  cluster  ->  encode  -> write
  */
 #ifndef SIM_MESH_MESH_H
 #define SIM_MESH_MESH_H
@@ -51,13 +51,13 @@ int mesh_import(mesh_t *mesh, const char *path, sim_error_t *error);
 int mesh_simplify(mesh_t *mesh, size_t max_faces, sim_error_t *error);
 
 typedef struct mesh_options {
-    bool keep_order;    /* faces stay in the order given (text scenes: ties are decided by it) */
-    bool keep_planar;   /* take polygons for planar: no test, no split for it; a mesh without normals is then lit flat */
-    double step;        /* quantisation step in model units, offset 0; 0 = the finest that holds the model */
+    bool keep_order;  /* faces stay in the order given (text scenes: ties are decided by it) */
+    bool keep_planar; /* take polygons for planar: no test, no split for it; a mesh without normals is then lit flat */
+    double step;      /* quantisation step in model units, offset 0; 0 = the finest that holds the model */
 } mesh_options_t;
 
 typedef struct mesh_report {
-    size_t vertices;   /* of all clusters, so those on borders more than once */
+    size_t vertices; /* of all clusters, so those on borders more than once */
     size_t faces;
     size_t polygons;   /* faces with more than three corners among them */
     size_t non_planar; /* polygons cut into triangles because they are not planar */

@@ -3,9 +3,7 @@
 
 int keyed_face_order(const void *x, const void *y) {
     const keyed_face_t *a = x, *b = y;
-    if (a->key != b->key) {
-        return a->key < b->key ? -1 : 1;
-    }
+    if (a->key != b->key) { return a->key < b->key ? -1 : 1; }
     return (a->item > b->item) - (a->item < b->item);
 }
 

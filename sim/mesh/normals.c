@@ -17,9 +17,7 @@ static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a
 
 static bool normalise(double v[3]) {
     double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
-    if (!(largest > 0) || !isfinite(largest)) {
-        return false;
-    }
+    if (!(largest > 0) || !isfinite(largest)) { return false; }
     for (int k = 0; k < 3; k++) { /* first by the largest: squares of tiny lengths would underflow */
         v[k] /= largest;
     }
@@ -56,9 +54,7 @@ static double corner_angle(const mesh_t *mesh, const mesh_face_t *face, uint32_t
         a[k] = before[k] - at[k];
         b[k] = after[k] - at[k];
     }
-    if (!normalise(a) || !normalise(b)) {
-        return 0;
-    }
+    if (!normalise(a) || !normalise(b)) { return 0; }
     return acos(fmax(-1.0, fmin(1.0, dot(a, b))));
 }
 
@@ -84,15 +80,11 @@ static bool wheel_make(wheel_t *wheel, const mesh_t *mesh) {
     wheel->face_of = mesh_array(mesh->corner_count, sizeof *wheel->face_of);
     wheel->first = mesh_array(mesh->position_count + 2, sizeof *wheel->first);
     wheel->spokes = mesh_array(mesh->corner_count, sizeof *wheel->spokes);
-    if (!wheel->units || !wheel->angles || !wheel->face_of || !wheel->first || !wheel->spokes) {
-        return false;
-    }
+    if (!wheel->units || !wheel->angles || !wheel->face_of || !wheel->first || !wheel->spokes) { return false; }
     for (size_t f = 0; f < mesh->face_count; f++) {
         const mesh_face_t *face = &mesh->faces[f];
         mesh_face_normal(mesh, face, wheel->units[f]);
-        if (!normalise(wheel->units[f])) {
-            memset(wheel->units[f], 0, sizeof wheel->units[f]);
-        }
+        if (!normalise(wheel->units[f])) { memset(wheel->units[f], 0, sizeof wheel->units[f]); }
         for (uint32_t i = 0; i < face->count; i++) {
             wheel->angles[face->first + i] = corner_angle(mesh, face, i);
             wheel->face_of[face->first + i] = (uint32_t)f;
@@ -158,8 +150,7 @@ int mesh_make_normals(mesh_t *mesh, bool flat, sim_error_t *error) {
             normals[c][k] += 0.0; /* -0 and 0 are one normal */
         }
     }
-    mesh->normal_count =
-        meshopt_generateVertexRemap(remap, NULL, mesh->corner_count, normals, mesh->corner_count, sizeof *normals);
+    mesh->normal_count = meshopt_generateVertexRemap(remap, NULL, mesh->corner_count, normals, mesh->corner_count, sizeof *normals);
     for (size_t c = 0; c < mesh->corner_count; c++) { /* in place: a normal never moves up */
         corner_normals[c] = remap[c];
         memmove(normals[remap[c]], normals[c], sizeof normals[c]);

@@ -29,11 +29,11 @@ static int by_use(const void *a, const void *b) {
     return (x->earliest > y->earliest) - (x->earliest < y->earliest);
 }
 
-#define BY_AXIS(name, axis)                                                                                                      \
-    static int name(const void *a, const void *b) {                                                                              \
-        const swatch_t *x = a, *y = b;                                                                                           \
-        int order = x->colour[axis] - y->colour[axis];                                                                           \
-        return order ? order : by_colour(a, b);                                                                                  \
+#define BY_AXIS(name, axis)                            \
+    static int name(const void *a, const void *b) {    \
+        const swatch_t *x = a, *y = b;                 \
+        int order = x->colour[axis] - y->colour[axis]; \
+        return order ? order : by_colour(a, b);        \
     }
 BY_AXIS(by_red, 0)
 BY_AXIS(by_green, 1)
@@ -60,9 +60,7 @@ static void measure(box_t *box, const swatch_t *swatches) {
             box->axis = k;
         }
     }
-    if (box->count < 2) {
-        box->spread = 0;
-    }
+    if (box->count < 2) { box->spread = 0; }
 }
 
 static void split(box_t *box, box_t *other, swatch_t *swatches) {
@@ -86,13 +84,9 @@ static size_t cut(swatch_t *swatches, size_t count, uint8_t (*palette)[3]) {
     while (box_count < MESH_MATERIALS_MAX) {
         size_t widest = 0;
         for (size_t b = 1; b < box_count; b++) {
-            if (boxes[b].spread > boxes[widest].spread) {
-                widest = b;
-            }
+            if (boxes[b].spread > boxes[widest].spread) { widest = b; }
         }
-        if (boxes[widest].count < 2) {
-            break;
-        }
+        if (boxes[widest].count < 2) { break; }
         split(&boxes[widest], &boxes[box_count], swatches);
         box_count++;
     }
@@ -109,9 +103,7 @@ static size_t cut(swatch_t *swatches, size_t count, uint8_t (*palette)[3]) {
 
 int mesh_palette(const uint8_t (*colours)[3], size_t count, uint8_t (*palette)[3], size_t *palette_count, uint32_t *index) {
     swatch_t *swatches = mesh_array(count, sizeof *swatches);
-    if (!swatches) {
-        return -1;
-    }
+    if (!swatches) { return -1; }
     for (size_t i = 0; i < count; i++) {
         memcpy(swatches[i].colour, colours[i], 3);
         swatches[i].faces = 1;

@@ -151,8 +151,8 @@ static bool quantise_places(work_t *w) {
             solid->error = fmax(solid->error, sqrt(squares));
         }
     }
-    solid->place_count = meshopt_generateVertexRemap(w->place_index, NULL, mesh->position_count, w->places, mesh->position_count,
-                                                     sizeof *w->places);
+    solid->place_count =
+        meshopt_generateVertexRemap(w->place_index, NULL, mesh->position_count, w->places, mesh->position_count, sizeof *w->places);
     for (size_t n = 0; n < mesh->normal_count; n++) {
         for (int k = 0; k < 3; k++) {
             w->normals[n][k] = (int8_t)lround(fmax(-1, fmin(1, mesh->normals[n][k])) * 127);
@@ -176,9 +176,7 @@ static bool planar(const mesh_t *mesh, const mesh_face_t *face, double tolerance
         for (int k = 0; k < 3; k++) {
             off += normal[k] * (at[k] - centre[k]);
         }
-        if (fabs(off) > tolerance * length) {
-            return false;
-        }
+        if (fabs(off) > tolerance * length) { return false; }
     }
     return true;
 }
@@ -207,9 +205,7 @@ static bool first_normal(const int32_t (*points)[3], size_t count, int64_t norma
                                           {points[j][0], points[j][1], points[j][2]},
                                           {points[i][0], points[i][1], points[i][2]}};
             newell(corner, 3, normal);
-            if (normal[0] || normal[1] || normal[2]) {
-                return true;
-            }
+            if (normal[0] || normal[1] || normal[2]) { return true; }
         }
     }
     return false;
@@ -287,13 +283,10 @@ static size_t gather(work_t *w, const mesh_face_t *face) {
     size_t count = 0;
     for (uint32_t i = 0; i < face->count; i++) {
         uint32_t place = w->place_index[w->mesh->corners[face->first + i]];
-        if (count && w->place_index[w->mesh->corners[w->corner[count - 1]]] == place) {
-            continue;
-        }
+        if (count && w->place_index[w->mesh->corners[w->corner[count - 1]]] == place) { continue; }
         w->corner[count++] = face->first + i;
     }
-    while (count > 1 &&
-           w->place_index[w->mesh->corners[w->corner[count - 1]]] == w->place_index[w->mesh->corners[w->corner[0]]]) {
+    while (count > 1 && w->place_index[w->mesh->corners[w->corner[count - 1]]] == w->place_index[w->mesh->corners[w->corner[0]]]) {
         count--;
     }
     for (size_t i = 0; i < count; i++) {
@@ -307,9 +300,7 @@ static size_t gather(work_t *w, const mesh_face_t *face) {
 static bool evenly_lit(const work_t *w, size_t count) {
     const uint32_t *normal_of = w->mesh->corner_normals;
     for (size_t i = 1; i < count; i++) {
-        if (memcmp(w->normals[normal_of[w->corner[i]]], w->normals[normal_of[w->corner[0]]], sizeof *w->normals)) {
-            return false;
-        }
+        if (memcmp(w->normals[normal_of[w->corner[i]]], w->normals[normal_of[w->corner[0]]], sizeof *w->normals)) { return false; }
     }
     return true;
 }
@@ -319,8 +310,7 @@ static bool quantise_face(work_t *w, const mesh_face_t *face) {
     size_t count = gather(w, face);
     bool bent = count > 3 && !w->options->keep_planar && !planar(w->mesh, face, solid->step_value);
     bool split = bent || count > MESH_CORNERS_MAX;
-    if (count > 3 && !split &&
-        !evenly_lit(w, count)) { /* interpolated light is only right on triangles: no fan, no single face */
+    if (count > 3 && !split && !evenly_lit(w, count)) { /* interpolated light is only right on triangles: no fan, no single face */
         int64_t normal[3];
         newell((const int32_t(*)[3])w->points, count, normal);
         split = !convex((const int32_t(*)[3])w->points, count, normal);
@@ -337,9 +327,7 @@ static bool quantise_face(work_t *w, const mesh_face_t *face) {
     long triangles = mesh_triangulate((const int32_t(*)[3])w->points, count, w->triangles);
     size_t before = solid->face_count;
     for (long t = 0; t < triangles; t++) {
-        if (emit(w, face, w->triangles[t], 3) < 0) {
-            return false;
-        }
+        if (emit(w, face, w->triangles[t], 3) < 0) { return false; }
     }
     if (solid->face_count == before) {
         solid->skipped++;
@@ -355,9 +343,7 @@ static bool quantise_face(work_t *w, const mesh_face_t *face) {
 static bool join(work_t *w) {
     solid_t *solid = w->solid;
     solid->corners = mesh_array(solid->corner_count, sizeof *solid->corners);
-    if (!solid->corners) {
-        return false;
-    }
+    if (!solid->corners) { return false; }
     if (!w->vertices) { /* no face was left */
         return true;
     }
@@ -376,13 +362,9 @@ static bool join(work_t *w) {
 
 int solid_quantise(solid_t *solid, const mesh_t *mesh, const mesh_options_t *options, sim_error_t *error) {
     memset(solid, 0, sizeof *solid);
-    if (mesh->face_count == 0) {
-        return sim_fail(error, "the model has no faces; there is nothing to draw");
-    }
+    if (mesh->face_count == 0) { return sim_fail(error, "the model has no faces; there is nothing to draw"); }
     extent_t extent = measure(mesh);
-    if (choose_grid(solid, &extent, options->step, error)) {
-        return -1;
-    }
+    if (choose_grid(solid, &extent, options->step, error)) { return -1; }
     uint32_t largest = 3;
     for (size_t f = 0; f < mesh->face_count; f++) {
         largest = mesh->faces[f].count > largest ? mesh->faces[f].count : largest;
@@ -399,9 +381,7 @@ int solid_quantise(solid_t *solid, const mesh_t *mesh, const mesh_options_t *opt
         done = quantise_face(&w, &mesh->faces[f]);
     }
     size_t faces = solid->face_count;
-    if (done && faces) {
-        done = join(&w);
-    }
+    if (done && faces) { done = join(&w); }
     work_free(&w);
     if (!done || !faces) {
         solid_free(solid);

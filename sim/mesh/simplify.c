@@ -44,9 +44,7 @@ static long face_triangles(const mesh_t *mesh, const mesh_face_t *face, int32_t 
             }
             extent = fmax(extent, high[k] - low[k]);
         }
-        if (!(extent > 0)) {
-            return 0;
-        }
+        if (!(extent > 0)) { return 0; }
         for (uint32_t i = 0; i < face->count; i++) {
             for (int k = 0; k < 3; k++) {
                 points[i][k] = (int32_t)lround((mesh->positions[corners[i]][k] - low[k]) / extent * MESH_TRIANGULATE_RANGE);
@@ -105,9 +103,7 @@ static bool soup_triangulate(soup_t *soup, const mesh_t *mesh) {
 static bool soup_place(soup_t *soup, const mesh_t *mesh) {
     double low[3], high[3], extent = 0;
     soup->places = mesh_array(soup->vertex_count, sizeof *soup->places);
-    if (!soup->places) {
-        return false;
-    }
+    if (!soup->places) { return false; }
     for (int k = 0; k < 3; k++) {
         low[k] = INFINITY;
         high[k] = -INFINITY;
@@ -128,9 +124,7 @@ static bool soup_place(soup_t *soup, const mesh_t *mesh) {
 /* One vertex a position, of the material that uses it first. */
 static bool soup_without_seams(soup_t *soup, const mesh_t *mesh) {
     uint32_t *vertex = mesh_array(mesh->position_count, sizeof *vertex);
-    if (!vertex) {
-        return false;
-    }
+    if (!vertex) { return false; }
     for (size_t v = soup->vertex_count; v-- > 0;) {
         vertex[soup->positions[v]] = (uint32_t)v;
     }
@@ -147,14 +141,9 @@ static size_t reduce(soup_t *soup, const mesh_t *mesh, size_t target, uint32_t *
     size_t stride = sizeof *soup->places;
     size_t made =
         meshopt_simplify(result, soup->indices, soup->index_count, places, soup->vertex_count, stride, target, FLT_MAX, 0, NULL);
-    if (made <= target || !soup_without_seams(soup, mesh)) {
-        return made;
-    }
-    made =
-        meshopt_simplify(result, soup->indices, soup->index_count, places, soup->vertex_count, stride, target, FLT_MAX, 0, NULL);
-    if (made <= target) {
-        return made;
-    }
+    if (made <= target || !soup_without_seams(soup, mesh)) { return made; }
+    made = meshopt_simplify(result, soup->indices, soup->index_count, places, soup->vertex_count, stride, target, FLT_MAX, 0, NULL);
+    if (made <= target) { return made; }
     return meshopt_simplifySloppy(result, soup->indices, soup->index_count, places, soup->vertex_count, stride, target, FLT_MAX,
                                   NULL);
 }

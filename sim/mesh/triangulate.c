@@ -43,19 +43,11 @@ static bool blocks(const ring_t *ring, uint32_t a, uint32_t b, uint32_t c, uint3
     if (same(p[q], p[a])) { /* another visit to a corner of the ear: only if it turns into the ear */
         return in_wedge(p[a], p[b], p[c], before) || in_wedge(p[a], p[b], p[c], after);
     }
-    if (same(p[q], p[b])) {
-        return in_wedge(p[b], p[c], p[a], before) || in_wedge(p[b], p[c], p[a], after);
-    }
-    if (same(p[q], p[c])) {
-        return in_wedge(p[c], p[a], p[b], before) || in_wedge(p[c], p[a], p[b], after);
-    }
+    if (same(p[q], p[b])) { return in_wedge(p[b], p[c], p[a], before) || in_wedge(p[b], p[c], p[a], after); }
+    if (same(p[q], p[c])) { return in_wedge(p[c], p[a], p[b], before) || in_wedge(p[c], p[a], p[b], after); }
     int64_t ab = area(p[a], p[b], p[q]), bc = area(p[b], p[c], p[q]), ca = area(p[c], p[a], p[q]);
-    if (ab < 0 || bc < 0 || ca < 0) {
-        return false;
-    }
-    if (ab > 0 && bc > 0) {
-        return true; /* inside, or on the cut itself */
-    }
+    if (ab < 0 || bc < 0 || ca < 0) { return false; }
+    if (ab > 0 && bc > 0) { return true; /* inside, or on the cut itself */ }
     /* On one of the two old edges: an outline that comes from there into the ear crosses it. */
     flat_point_t from = ab == 0 ? p[a] : p[b], to = ab == 0 ? p[b] : p[c];
     return area(from, to, before) > 0 || area(from, to, after) > 0;
@@ -65,13 +57,9 @@ static double roundness(const ring_t *ring, uint32_t b) {
     uint32_t a = ring->previous[b], c = ring->next[b];
     const flat_point_t *p = ring->points;
     int64_t twice = area(p[a], p[b], p[c]);
-    if (twice <= 0) {
-        return 0;
-    }
+    if (twice <= 0) { return 0; }
     for (uint32_t q = ring->next[c]; q != a; q = ring->next[q]) {
-        if (blocks(ring, a, b, c, q)) {
-            return 0;
-        }
+        if (blocks(ring, a, b, c, q)) { return 0; }
     }
     double squares = 0;
     const uint32_t corners[4] = {a, b, c, a};
@@ -85,9 +73,7 @@ static double roundness(const ring_t *ring, uint32_t b) {
 static uint32_t roundest(const ring_t *ring, uint32_t start) {
     uint32_t best = start;
     for (uint32_t i = 0, at = start; i < ring->left; i++, at = ring->next[at]) {
-        if (ring->roundness[at] > ring->roundness[best]) {
-            best = at;
-        }
+        if (ring->roundness[at] > ring->roundness[best]) { best = at; }
     }
     return best;
 }
@@ -98,9 +84,7 @@ static uint32_t least_bad(const ring_t *ring, uint32_t start) {
     int64_t most = INT64_MIN;
     for (uint32_t i = 0, at = start; i < ring->left; i++, at = ring->next[at]) {
         int64_t twice = area(ring->points[ring->previous[at]], ring->points[at], ring->points[ring->next[at]]);
-        if (twice == 0) {
-            return at;
-        }
+        if (twice == 0) { return at; }
         if (twice > most) {
             most = twice;
             best = at;
@@ -120,9 +104,7 @@ static bool has_area(const ring_t *ring, uint32_t a, uint32_t b, uint32_t c) {
     const int32_t *p = ring->solid[a], *q = ring->solid[b], *r = ring->solid[c];
     for (int k = 0; k < 3; k++) {
         int y = (k + 1) % 3, z = (k + 2) % 3;
-        if ((int64_t)(q[y] - p[y]) * (r[z] - p[z]) != (int64_t)(q[z] - p[z]) * (r[y] - p[y])) {
-            return true;
-        }
+        if ((int64_t)(q[y] - p[y]) * (r[z] - p[z]) != (int64_t)(q[z] - p[z]) * (r[y] - p[y])) { return true; }
     }
     return false;
 }
@@ -172,9 +154,7 @@ static long clip(ring_t *ring, uint32_t (*triangles)[3]) {
             }
             ear = roundest(ring, start);
         }
-        if (!(ring->roundness[ear] > 0)) {
-            ear = least_bad(ring, start);
-        }
+        if (!(ring->roundness[ear] > 0)) { ear = least_bad(ring, start); }
         uint32_t a = ring->previous[ear], c = ring->next[ear];
         if (has_area(ring, a, ear, c)) {
             triangles[count][0] = a;
@@ -208,13 +188,9 @@ static bool flatten(const int32_t (*points)[3], size_t count, flat_point_t *flat
     }
     int axis = 0;
     for (int k = 1; k < 3; k++) {
-        if (fabs(normal[k]) > fabs(normal[axis])) {
-            axis = k;
-        }
+        if (fabs(normal[k]) > fabs(normal[axis])) { axis = k; }
     }
-    if (!(fabs(normal[axis]) > 0)) {
-        return false;
-    }
+    if (!(fabs(normal[axis]) > 0)) { return false; }
     int x = (axis + 1) % 3, y = (axis + 2) % 3;
     for (size_t i = 0; i < count; i++) {
         flat[i].x = points[i][normal[axis] > 0 ? x : y];

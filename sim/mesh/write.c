@@ -28,14 +28,10 @@ static bool is_identifier(const char *name) {
         return false;
     }
     for (size_t i = 0; i < length; i++) {
-        if (!is_letter(name[i]) && !is_digit(name[i])) {
-            return false;
-        }
+        if (!is_letter(name[i]) && !is_digit(name[i])) { return false; }
     }
     for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++) {
-        if (!strcmp(name, reserved[i])) {
-            return false;
-        }
+        if (!strcmp(name, reserved[i])) { return false; }
     }
     return true;
 }
@@ -53,9 +49,7 @@ static void default_name(const char *path, char name[NAME_MAX_CHARS + 1]) {
         at = attempt ? (size_t)snprintf(name, NAME_MAX_CHARS + 1, "model_") : 0;
         for (size_t i = 0; i < length && at < NAME_MAX_CHARS; i++) {
             name[at++] = stem[i];
-            if (!is_letter(stem[i]) && !is_digit(stem[i])) {
-                name[at - 1] = '_';
-            }
+            if (!is_letter(stem[i]) && !is_digit(stem[i])) { name[at - 1] = '_'; }
         }
         name[at] = 0;
     }
@@ -80,9 +74,7 @@ static int put_source(FILE *file, const uint8_t *bytes, size_t size_bytes, const
     for (size_t w = 0; w < words; w++) {
         uint8_t word[4] = {0};
         memcpy(word, bytes + 4 * w, size_bytes - 4 * w < 4 ? size_bytes - 4 * w : 4);
-        if (fprintf(file, "%s0x%08x,", w % 8 ? " " : "\n    ", model_u32(word)) < 0) {
-            return errno ? errno : EIO;
-        }
+        if (fprintf(file, "%s0x%08x,", w % 8 ? " " : "\n    ", model_u32(word)) < 0) { return errno ? errno : EIO; }
     }
     return fprintf(file, "\n};\n") < 0 ? (errno ? errno : EIO) : 0;
 }
@@ -102,12 +94,8 @@ static int put_all(int descriptor, const uint8_t *bytes, size_t size_bytes, cons
     } else if (fwrite(bytes, 1, size_bytes, file) != size_bytes) {
         trouble = errno ? errno : EIO;
     }
-    if (!trouble && (fflush(file) || (sync && fsync(descriptor)))) {
-        trouble = errno ? errno : EIO;
-    }
-    if (fclose(file) && !trouble) {
-        trouble = errno ? errno : EIO;
-    }
+    if (!trouble && (fflush(file) || (sync && fsync(descriptor)))) { trouble = errno ? errno : EIO; }
+    if (fclose(file) && !trouble) { trouble = errno ? errno : EIO; }
     return trouble;
 }
 
@@ -120,9 +108,7 @@ static int fail(const char *path, const char *what, int trouble, sim_error_t *er
 static int replace(const char *path, const uint8_t *bytes, size_t size_bytes, const char *name, mode_t mode, sim_error_t *error) {
     size_t length = strlen(path) + sizeof ".XXXXXX";
     char *beside = malloc(length);
-    if (!beside) {
-        return sim_fail(error, "%s: out of memory; nothing was written", path);
-    }
+    if (!beside) { return sim_fail(error, "%s: out of memory; nothing was written", path); }
     (void)snprintf(beside, length, "%s.XXXXXX", path);
     int descriptor = mkstemp(beside);
     if (descriptor < 0) {
@@ -136,12 +122,8 @@ static int replace(const char *path, const uint8_t *bytes, size_t size_bytes, co
     } else {
         trouble = put_all(descriptor, bytes, size_bytes, name, true);
     }
-    if (!trouble && rename(beside, path)) {
-        trouble = errno;
-    }
-    if (trouble) {
-        (void)unlink(beside);
-    }
+    if (!trouble && rename(beside, path)) { trouble = errno; }
+    if (trouble) { (void)unlink(beside); }
     free(beside);
     return trouble ? fail(path, "writing failed", trouble, error) : 0;
 }
@@ -169,16 +151,13 @@ int mesh_write(const uint8_t *bytes, size_t size_bytes, const char *path, const 
     struct stat status;
     bool there = !stat(path, &status);
     if (there && !S_ISREG(status.st_mode)) {
-        if (S_ISDIR(status.st_mode)) {
-            return sim_fail(error, "%s: is a folder; name a file in it", path);
-        }
+        if (S_ISDIR(status.st_mode)) { return sim_fail(error, "%s: is a folder; name a file in it", path); }
         int descriptor = open(path, O_WRONLY | O_CLOEXEC);
         int trouble = descriptor < 0 ? errno : put_all(descriptor, bytes, size_bytes, source ? name : NULL, false);
         return trouble ? sim_fail(error, "%s: writing failed: %s", path, strerror(trouble)) : 0;
     }
     char *real = there ? realpath(path, NULL) : NULL; /* what a link names is replaced, not the link */
-    int result =
-        replace(real ? real : path, bytes, size_bytes, source ? name : NULL, there ? status.st_mode & 0777 : mode, error);
+    int result = replace(real ? real : path, bytes, size_bytes, source ? name : NULL, there ? status.st_mode & 0777 : mode, error);
     free(real);
     return result;
 }

@@ -1,8 +1,8 @@
 /* What is counted by `make bench`: eight frames of a turning model, drawn by bench_frame, under callgrind.
  *
  * The scene: camera at the origin looking along -z, vertical field of view 45 degrees, near 1, far 10; the model turned about y by
- * i * 360 / 64 degrees and moved to (0, 0, -3); one directional light along (-0.4, -0.6, -1), ambient 0.15, diffuse 0.75. A model whose
- * bounding sphere is not about 1 in radius is centred and scaled to 1, and the output says so.
+ * i * 360 / 64 degrees and moved to (0, 0, -3); one directional light along (-0.4, -0.6, -1), ambient 0.15, diffuse 0.75. A model
+ * whose bounding sphere is not about 1 in radius is centred and scaled to 1, and the output says so.
  *
  * Usage: bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT flat|gouraud MEMORY_BYTES
  */
@@ -40,10 +40,14 @@ static void place(tuile_instance_t *instance, const tuile_model_t *model, unsign
     instance->pose.scale = (tuile_scale_t){(uint32_t)ldexp(mantissa, 31), exponent - 31};
     if (as_it_is) { instance->pose.scale = TUILE_SCALE_ONE; }
     tuile_rotation(instance->pose.rotation, 1, (bam16_t)(frame * 1024u));
-    for (int i = 0; i < 3 && !as_it_is; i++) { centre[i] = scale * step * (model->offset[i] + (double)model->centre[i]); }
+    for (int i = 0; i < 3 && !as_it_is; i++) {
+        centre[i] = scale * step * (model->offset[i] + (double)model->centre[i]);
+    }
     for (int i = 0; i < 3; i++) {
         double at = i == 2 ? -3.0 : 0.0;
-        for (int j = 0; j < 3; j++) { at -= instance->pose.rotation[i][j] / (double)TUILE_ONE_Q30 * centre[j]; }
+        for (int j = 0; j < 3; j++) {
+            at -= instance->pose.rotation[i][j] / (double)TUILE_ONE_Q30 * centre[j];
+        }
         instance->pose.translation[i] = TUILE_Q16(at);
     }
     if (frame == 0 && !as_it_is) { (void)printf("scaled by %g\n", scale); }
@@ -81,7 +85,9 @@ int main(int count, char **arguments) {
     }
 
     const double length = sqrt(0.4 * 0.4 + 0.6 * 0.6 + 1.0);
-    const tuile_light_t light = {{(q2_14_t)lround(-0.4 / length * 16384), (q2_14_t)lround(-0.6 / length * 16384), (q2_14_t)lround(-1 / length * 16384)}, 191};
+    const tuile_light_t light = {
+        {(q2_14_t)lround(-0.4 / length * 16384), (q2_14_t)lround(-0.6 / length * 16384), (q2_14_t)lround(-1 / length * 16384)},
+        191};
     tuile_instance_t instance = {0};
     tuile_scene_t scene = {.instances = &instance, .instance_count = 1, .lights = &light, .light_count = 1, .ambient = 38};
     static const q16_16_t eye[3] = {0, 0, 0}, at[3] = {0, 0, -65536}, up[3] = {0, 65536, 0};
@@ -107,7 +113,8 @@ int main(int count, char **arguments) {
         passes += stats.passes;
         peak = stats.peak_bytes > peak ? stats.peak_bytes : peak;
     }
-    (void)printf("faces %u frames %u setup %u vertices %u passes %u peak %u\n", faces, FRAMES, setup / FRAMES, vertices / FRAMES, passes, peak);
+    (void)printf("faces %u frames %u setup %u vertices %u passes %u peak %u\n", faces, FRAMES, setup / FRAMES, vertices / FRAMES,
+                 passes, peak);
     free(block);
     free(bytes);
     return 0;

@@ -70,7 +70,9 @@ int coverage_reference(reference_spans_t *spans, const int32_t (*points)[2], siz
             crossing_t crossing;
             if (!meets_row(points[i], points[(i + 1) % count], row_y, &crossing)) { continue; }
             size_t at = found++;
-            for (; at > 0 && is_left_of(crossing, crossings[at - 1]); at--) { crossings[at] = crossings[at - 1]; }
+            for (; at > 0 && is_left_of(crossing, crossings[at - 1]); at--) {
+                crossings[at] = crossings[at - 1];
+            }
             crossings[at] = crossing;
         }
         for (size_t i = 0; i + 1 < found; i += 2) {

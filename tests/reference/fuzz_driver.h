@@ -43,9 +43,7 @@ static size_t fuzz_change(uint64_t *state, uint8_t *bytes, size_t size) {
                 size += length;
             }
             break;
-        case 2:
-            bytes[at] = (uint8_t)scene_generator_between(state, 0, 255);
-            break;
+        case 2: bytes[at] = (uint8_t)scene_generator_between(state, 0, 255); break;
         default: {
             const char *word = spice[scene_generator_between(state, 0, (int32_t)(sizeof spice / sizeof spice[0]) - 1)];
             if (size + strlen(word) <= FUZZ_SIZE_MAX) {
@@ -75,7 +73,9 @@ static int fuzz_file(const char *path) {
 /* seed(n) makes the n-th seed, a string to be released with free, or NULL. */
 static int fuzz_drive(int argc, char **argv, char *(*seed)(uint64_t n)) {
     int result = 0;
-    for (int i = 1; i < argc; i++) { result |= fuzz_file(argv[i]); }
+    for (int i = 1; i < argc; i++) {
+        result |= fuzz_file(argv[i]);
+    }
     if (argc > 1) { return result; }
     uint64_t state = 1;
     for (uint64_t n = 0; n < FUZZ_ROUNDS; n++) {

@@ -95,7 +95,9 @@ static shape_t make_round(uint64_t *state, int size) {
     shape_t shape = {.count = 0};
     static const int steps[] = {2, 3, 4, 8};
     int step = steps[between(state, 0, 3)], radius = between(state, size / 2 + 1, size), turn = between(state, 0, 23);
-    for (int k = 0; k < 24; k += step) { add_polar(&shape, k + turn, radius); }
+    for (int k = 0; k < 24; k += step) {
+        add_polar(&shape, k + turn, radius);
+    }
     return shape;
 }
 
@@ -103,7 +105,9 @@ static shape_t make_star(uint64_t *state, int size) {
     shape_t shape = {.count = 0};
     static const int steps[] = {1, 2, 3, 4};
     int step = steps[between(state, 0, 3)], inner = between(state, 1, size / 2 + 1), turn = between(state, 0, 23);
-    for (int k = 0, point = 0; k < 24; k += step, point++) { add_polar(&shape, k + turn, point % 2 ? inner : size); }
+    for (int k = 0, point = 0; k < 24; k += step, point++) {
+        add_polar(&shape, k + turn, point % 2 ? inner : size);
+    }
     return shape;
 }
 
@@ -140,28 +144,38 @@ static shape_t make_frame(uint64_t *state, int size) {
     shape_t shape = {.count = 0};
     int hole = between(state, 0, size - 1);
     static const int corners[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
-    for (int k = 0; k < 5; k++) { add(&shape, corners[k][0] * size, corners[k][1] * size); }
-    for (int k = 4; k >= 0; k--) { add(&shape, corners[k][0] * hole, corners[k][1] * hole); }
+    for (int k = 0; k < 5; k++) {
+        add(&shape, corners[k][0] * size, corners[k][1] * size);
+    }
+    for (int k = 4; k >= 0; k--) {
+        add(&shape, corners[k][0] * hole, corners[k][1] * hole);
+    }
     return shape;
 }
 
 static shape_t make_pentagram(uint64_t *state, int size) {
     shape_t shape = {.count = 0};
     int turn = between(state, 0, 23), points = chance(state, 50) ? 5 : 7;
-    for (int k = 0; k < points; k++) { add_polar(&shape, turn + 24 * ((2 * k) % points) / points, size); }
+    for (int k = 0; k < points; k++) {
+        add_polar(&shape, turn + 24 * ((2 * k) % points) / points, size);
+    }
     return shape;
 }
 
 static shape_t make_scribble(uint64_t *state, int size) {
     shape_t shape = {.count = 0};
     int count = between(state, 4, 9);
-    for (int k = 0; k < count; k++) { add(&shape, between(state, -size, size), between(state, -size, size)); }
+    for (int k = 0; k < count; k++) {
+        add(&shape, between(state, -size, size), between(state, -size, size));
+    }
     return shape;
 }
 
 static shape_t make_triangle(uint64_t *state, int size) {
     shape_t shape = {.count = 0};
-    for (int k = 0; k < 3; k++) { add(&shape, between(state, -size, size), between(state, -size, size)); }
+    for (int k = 0; k < 3; k++) {
+        add(&shape, between(state, -size, size), between(state, -size, size));
+    }
     return shape;
 }
 
@@ -183,33 +197,15 @@ static shape_t make_shape(uint64_t *state, int size, const scene_generator_t *op
     int last = options->convex ? 2 : options->simple ? 6 : 8;
     do {
         switch (between(state, 0, last)) {
-        case 0:
-            shape = make_triangle(state, size);
-            break;
-        case 1:
-            shape = make_rectangle(state, size);
-            break;
-        case 2:
-            shape = make_round(state, size);
-            break;
-        case 3:
-            shape = make_star(state, size);
-            break;
-        case 4:
-            shape = make_comb(state, size);
-            break;
-        case 5:
-            shape = make_corner(state, size);
-            break;
-        case 6:
-            shape = make_frame(state, size);
-            break;
-        case 7:
-            shape = make_pentagram(state, size);
-            break;
-        default:
-            shape = make_scribble(state, size);
-            break;
+        case 0: shape = make_triangle(state, size); break;
+        case 1: shape = make_rectangle(state, size); break;
+        case 2: shape = make_round(state, size); break;
+        case 3: shape = make_star(state, size); break;
+        case 4: shape = make_comb(state, size); break;
+        case 5: shape = make_corner(state, size); break;
+        case 6: shape = make_frame(state, size); break;
+        case 7: shape = make_pentagram(state, size); break;
+        default: shape = make_scribble(state, size); break;
         }
     } while (!has_area(&shape));
     return shape;
@@ -277,7 +273,9 @@ static void make_place(uint64_t *state, const world_t *world, const scene_genera
 }
 
 static void to_space(const lattice_t *lattice, const int32_t at[2], int32_t vertex[3]) {
-    for (int i = 0; i < 3; i++) { vertex[i] = lattice->o[i] + at[0] * lattice->u[i] + at[1] * lattice->v[i]; }
+    for (int i = 0; i < 3; i++) {
+        vertex[i] = lattice->o[i] + at[0] * lattice->u[i] + at[1] * lattice->v[i];
+    }
 }
 
 static int least_z(const lattice_t *lattice, const shape_t *shape) {
@@ -300,7 +298,9 @@ static void write_faces(text_t *text, uint64_t *state, const world_t *world, con
             lattice.o[2] += between(state, 1, 9) * (chance(state, 50) ? 1 : -1);
         } else if (repeat) { /* the same plane, another shape and place in it */
             int p = between(state, -size, size), q = between(state, -size, size);
-            for (int i = 0; i < 3; i++) { lattice.o[i] += p * lattice.u[i] + q * lattice.v[i]; }
+            for (int i = 0; i < 3; i++) {
+                lattice.o[i] += p * lattice.u[i] + q * lattice.v[i];
+            }
             shape = make_shape(state, size, options);
         } else {
             make_place(state, world, options, &lattice, &size);
@@ -327,7 +327,9 @@ char *scene_generate(uint64_t seed, const scene_generator_t *given) {
     scene_generator_t options = given ? *given : (scene_generator_t){.faces = 0};
     text_t text = {.start = NULL};
     uint64_t state = seed * 0x9e3779b97f4a7c15u + 0x632be59bd9b4e019u;
-    for (int i = 0; i < 4; i++) { (void)next(&state); }
+    for (int i = 0; i < 4; i++) {
+        (void)next(&state);
+    }
     world_t world = {
         .perspective = options.no_orthographic || (!options.no_perspective && chance(&state, 50)),
         .width = options.width ? options.width : between(&state, 1, 48),

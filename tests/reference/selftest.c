@@ -25,7 +25,9 @@
 /* Polygons of the documents have whole coordinates and are sampled there: their point (x, y) is the centre of pixel (x, y). */
 static void at_centres(int32_t (*points)[2], const int (*document)[2], size_t count) {
     for (size_t i = 0; i < count; i++) {
-        for (int c = 0; c < 2; c++) { points[i][c] = 16 * document[i][c] + 8; }
+        for (int c = 0; c < 2; c++) {
+            points[i][c] = 16 * document[i][c] + 8;
+        }
     }
 }
 
@@ -83,10 +85,14 @@ static void coverage_steps_like_the_worked_edge(void **state) {
     static const int left[4][2] = {{3, 0}, {7, 10}, {30, 10}, {30, 0}}, right[4][2] = {{-5, 0}, {-5, 10}, {7, 10}, {3, 0}};
     int32_t points[4][2];
     reference_span_t expected[10];
-    for (int y = 0; y < 10; y++) { expected[y] = (reference_span_t){y, shown[y], 29}; }
+    for (int y = 0; y < 10; y++) {
+        expected[y] = (reference_span_t){y, shown[y], 29};
+    }
     at_centres(points, left, 4);
     expect_spans((const int32_t(*)[2])points, 4, 32, 32, expected, 10);
-    for (int y = 0; y < 10; y++) { expected[y] = (reference_span_t){y, 0, shown[y] - 1}; }
+    for (int y = 0; y < 10; y++) {
+        expected[y] = (reference_span_t){y, 0, shown[y] - 1};
+    }
     at_centres(points, right, 4);
     expect_spans((const int32_t(*)[2])points, 4, 32, 32, expected, 10);
 }
@@ -124,7 +130,9 @@ static void coverage_is_even_odd(void **state) {
 
 static void random_points(uint64_t *seed, int32_t (*points)[2], size_t count, int32_t reach) {
     for (size_t i = 0; i < count; i++) {
-        for (int c = 0; c < 2; c++) { points[i][c] = scene_generator_between(seed, -reach / 4, reach); }
+        for (int c = 0; c < 2; c++) {
+            points[i][c] = scene_generator_between(seed, -reach / 4, reach);
+        }
     }
 }
 
@@ -139,7 +147,9 @@ static void coverage_by_row_is_coverage_by_pixel(void **state) {
         size_t count = (size_t)scene_generator_between(&seed, 3, 9);
         random_points(&seed, points, count, SIZE * 16);
         if (round % 2) { /* many vertices on centres */
-            for (size_t i = 0; i < count; i++) { points[i][0] = points[i][0] / 8 * 8, points[i][1] = points[i][1] / 8 * 8; }
+            for (size_t i = 0; i < count; i++) {
+                points[i][0] = points[i][0] / 8 * 8, points[i][1] = points[i][1] / 8 * 8;
+            }
         }
         bool drawn[SIZE][SIZE] = {{false}};
         assert_int_equal(coverage_reference(&spans, (const int32_t(*)[2])points, count, SIZE, SIZE), 0);
@@ -169,11 +179,15 @@ static void coverage_is_watertight(void **state) {
         for (int i = 0; i < 8; i++) {
             const int32_t points[3][2] = {{hub[0], hub[1]}, {rim[i][0], rim[i][1]}, {rim[(i + 1) % 8][0], rim[(i + 1) % 8][1]}};
             for (int y = 0; y < 10; y++) {
-                for (int x = 0; x < 10; x++) { drawn[y][x] += coverage_reference_pixel(points, 3, x, y); }
+                for (int x = 0; x < 10; x++) {
+                    drawn[y][x] += coverage_reference_pixel(points, 3, x, y);
+                }
             }
         }
         for (int y = 0; y < 10; y++) {
-            for (int x = 0; x < 10; x++) { assert_int_equal(drawn[y][x], 1); }
+            for (int x = 0; x < 10; x++) {
+                assert_int_equal(drawn[y][x], 1);
+            }
         }
     }
 }
@@ -431,7 +445,9 @@ static void visibility_without_doubt_is_stable(void **state) {
                 }
             }
         }
-        for (size_t m = 0; m < COUNT(moves); m++) { visibility_reference_free(moved[m]); }
+        for (size_t m = 0; m < COUNT(moves); m++) {
+            visibility_reference_free(moved[m]);
+        }
         visibility_reference_free(reference);
         scene_text_free(&scene);
         free(text);
@@ -591,7 +607,9 @@ static void text_counts_corners(void **state) {
     (void)state;
     for (int count = 255; count <= 256; count++) {
         char text[8192] = "screen 4 4\ncamera ortho\npoly 1";
-        for (int i = 0; i < count; i++) { (void)snprintf(text + strlen(text), sizeof text - strlen(text), " %d,%d,0", i, i * i); }
+        for (int i = 0; i < count; i++) {
+            (void)snprintf(text + strlen(text), sizeof text - strlen(text), " %d,%d,0", i, i * i);
+        }
         scene_text_t scene;
         sim_error_t error = {""};
         assert_int_equal(scene_text_parse(&scene, text, strlen(text), "scene", &error), count == 255 ? 0 : -1);
@@ -616,7 +634,9 @@ static void expect_steps(const char *vertices, int exponent, bool exact, double 
     assert_int_equal(mesh.face_count, 1);
     assert_int_equal(mesh.faces[0].count, 3);
     for (int i = 0; i < 3; i++) {
-        for (int c = 0; c < 3; c++) { assert_true(mesh.positions[mesh.corners[i]][c] == steps[i][c]); }
+        for (int c = 0; c < 3; c++) {
+            assert_true(mesh.positions[mesh.corners[i]][c] == steps[i][c]);
+        }
     }
     free(mesh.positions);
     free(mesh.corners);
@@ -658,7 +678,9 @@ static seen_point_t project(const scene_view_t *view, const double position[3]) 
     }
     for (int i = 0; i < 3; i++) {
         eye[i] = 0;
-        for (int k = 0; k < 3; k++) { eye[i] += ldexp(camera->rotation[i][k], -30) * (world[k] - q16(camera->eye[k])); }
+        for (int k = 0; k < 3; k++) {
+            eye[i] += ldexp(camera->rotation[i][k], -30) * (world[k] - q16(camera->eye[k]));
+        }
         assert_true(fabs(world[i]) < 32768 && fabs(eye[i]) < 32768);
     }
     double w = camera->projection == TUILE_PERSPECTIVE ? -eye[2] : 1;
@@ -683,7 +705,9 @@ static void expect_view(const char *text, bool exact) {
     assert_int_equal(view.camera.projection, scene.projection);
     for (size_t i = 0; i < scene.vertex_count; i++) {
         double at[3];
-        for (int c = 0; c < 3; c++) { at[c] = value(scene.vertices[i][c]); }
+        for (int c = 0; c < 3; c++) {
+            at[c] = value(scene.vertices[i][c]);
+        }
         if (scene.projection == TUILE_PERSPECTIVE && at[2] <= 0) { continue; }
         seen_point_t seen = project(&view, mesh.positions[mesh.corners[i]]);
         double x = at[0], y = at[1];
@@ -745,7 +769,9 @@ static void text_places_the_camera(void **state) {
         {"screen 64 48\ncamera persp 50 99999\npoly 1 1,2,3 -4,5,32767 9,-3,1", true},
         {"screen 64 48\ncamera persp 50\npoly 1 100000,2,100000 -40000,5,70000 90000,-30000,20002", true},
     };
-    for (size_t i = 0; i < COUNT(cases); i++) { expect_view(cases[i].text, cases[i].exact); }
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        expect_view(cases[i].text, cases[i].exact);
+    }
     for (uint64_t seed = 1; seed <= 200; seed++) {
         char *text = scene_generate(seed, NULL);
         assert_non_null(text);
@@ -813,7 +839,9 @@ static void generator_keeps_its_word(void **state) {
                 int before = 0, after = 0;
                 for (size_t i = 0; i < scene.polys[p].count; i++) {
                     const scene_number_t *vertex = scene.vertices[scene.polys[p].first + i];
-                    for (int c = 0; c < 3; c++) { assert_true(llabs(vertex[c].numerator) <= 4000 && vertex[c].denominator == 1); }
+                    for (int c = 0; c < 3; c++) {
+                        assert_true(llabs(vertex[c].numerator) <= 4000 && vertex[c].denominator == 1);
+                    }
                     before += value(vertex[2]) < value(scene.near);
                     after += value(vertex[2]) >= value(scene.near);
                 }
@@ -875,7 +903,9 @@ static void polygons_may_be_long(void **state) {
     (void)state;
     FILE *file = tmpfile();
     assert_non_null(file);
-    for (int i = 0; i < 100000; i++) { (void)fprintf(file, "%d %d ", i, -i); }
+    for (int i = 0; i < 100000; i++) {
+        (void)fprintf(file, "%d %d ", i, -i);
+    }
     rewind(file);
     coverage_text_t text;
     coverage_text_open(&text, file, "polygons");

@@ -59,7 +59,9 @@ static int128_t gcd(int128_t a, int128_t b) {
 
 static int bits(int128_t a) {
     int count = 0;
-    for (a = absolute(a); a; a /= 2) { count++; }
+    for (a = absolute(a); a; a /= 2) {
+        count++;
+    }
     return count;
 }
 
@@ -103,7 +105,9 @@ static void find_plane(face_t *face, int64_t (*v)[3], size_t count, bool perspec
     int128_t front = perspective ? face->k : face->n[2];
     face->edge_on = front == 0;
     if (front < 0) {
-        for (int c = 0; c < 3; c++) { face->n[c] = -face->n[c]; }
+        for (int c = 0; c < 3; c++) {
+            face->n[c] = -face->n[c];
+        }
         face->k = -face->k;
     }
 }
@@ -184,7 +188,9 @@ static bool set_faces(visibility_reference_t *reference, const scene_text_t *sce
     int64_t *unit = &reference->scene_unit;
     bool good = !reference->perspective || cover(unit, scene->near, COORDINATE_BITS);
     for (size_t i = 0; i < scene->vertex_count; i++) {
-        for (int c = 0; c < 3; c++) { good = good && cover(unit, scene->vertices[i][c], COORDINATE_BITS); }
+        for (int c = 0; c < 3; c++) {
+            good = good && cover(unit, scene->vertices[i][c], COORDINATE_BITS);
+        }
     }
     if (!good || (reference->perspective && !make_whole(&reference->near, scene->near, *unit, COORDINATE_BITS))) { return false; }
     size_t point_count = 0;
@@ -203,7 +209,9 @@ static bool set_faces(visibility_reference_t *reference, const scene_text_t *sce
         } else {
             face->first = point_count;
             face->count = poly->count;
-            for (size_t k = 0; k < poly->count; k++) { reference->points[point_count++] = (point_t){v[k][0], v[k][1], *unit}; }
+            for (size_t k = 0; k < poly->count; k++) {
+                reference->points[point_count++] = (point_t){v[k][0], v[k][1], *unit};
+            }
         }
     }
     return fits(reference, point_count);

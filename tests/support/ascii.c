@@ -24,9 +24,7 @@ void ascii_hit(ascii_picture_t *picture, int32_t x, int32_t y) {
 
 void ascii_span(void *context, int32_t row, int32_t first, int32_t end) {
     ascii_picture_t *picture = context;
-    if (first >= end) {
-        picture->outside = true;
-    }
+    if (first >= end) { picture->outside = true; }
     for (int32_t x = first; x < end; x++) {
         ascii_hit(picture, x, row);
     }
@@ -37,9 +35,7 @@ bool ascii_same(const ascii_picture_t *picture, const char *const *rows, const c
     for (int32_t y = 0; y < picture->height; y++) {
         same &= strcmp(picture->rows[y], rows[y]) == 0;
     }
-    if (same) {
-        return true;
-    }
+    if (same) { return true; }
     printf("%s%s\n  expected, difference, drawn:\n", what, picture->outside ? ": drawn outside the window, or an empty span" : "");
     for (int32_t y = 0; y < picture->height; y++) {
         char difference[ASCII_MAX_PX + 1];

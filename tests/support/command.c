@@ -136,7 +136,9 @@ void command_run(command_result_t *result, const char *const *arguments, const c
         execute(arguments);
         _exit(127);
     }
-    while (waitpid(child, &status, 0) < 0) { assert_int_equal(errno, EINTR); }
+    while (waitpid(child, &status, 0) < 0) {
+        assert_int_equal(errno, EINTR);
+    }
     (void)fclose(in);
     result->code = WIFEXITED(status) ? WEXITSTATUS(status) : 256 + WTERMSIG(status);
     result->out = drain(out, &result->out_bytes);
@@ -157,9 +159,9 @@ void command_free(command_result_t *result) {
 
 bool command_failed_well(const command_result_t *result, const char *word, const char *other_word) {
     const char *end = strchr(result->err, '\n');
-    const bool good = result->code > 0 && result->code < 126 && strncmp(result->err, "tuile: ", 7) == 0 && end != NULL && end[1] == '\0' &&
-                      result->err_bytes > 8 && strlen(result->err) == result->err_bytes && (!word || strstr(result->err, word)) &&
-                      (!other_word || strstr(result->err, other_word));
+    const bool good = result->code > 0 && result->code < 126 && strncmp(result->err, "tuile: ", 7) == 0 && end != NULL &&
+                      end[1] == '\0' && result->err_bytes > 8 && strlen(result->err) == result->err_bytes &&
+                      (!word || strstr(result->err, word)) && (!other_word || strstr(result->err, other_word));
     if (!good) {
         print_message("exit code %d, stdout '%.300s', stderr '%s'; wanted one line with '%s' and '%s'\n", result->code, result->out,
                       result->err, word ? word : "", other_word ? other_word : "");

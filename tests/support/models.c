@@ -37,8 +37,8 @@ uint32_t model_material(mesh_t *mesh, unsigned red, unsigned green, unsigned blu
 
 void model_face(mesh_t *mesh, const uint32_t *corners, uint32_t count, uint32_t material) {
     mesh->faces = more(mesh->faces, mesh->face_count, sizeof *mesh->faces);
-    mesh->faces[mesh->face_count] =
-        (mesh_face_t){.first = (uint32_t)mesh->corner_count, .count = count, .material = material, .source = (uint32_t)mesh->face_count};
+    mesh->faces[mesh->face_count] = (mesh_face_t){
+        .first = (uint32_t)mesh->corner_count, .count = count, .material = material, .source = (uint32_t)mesh->face_count};
     mesh->source_face_count = ++mesh->face_count;
     for (uint32_t i = 0; i < count; i++) {
         mesh->corners = more(mesh->corners, mesh->corner_count, sizeof *mesh->corners);
@@ -63,7 +63,9 @@ void model_box(mesh_t *mesh, const double low[3], const double high[3], uint32_t
     const uint32_t first = box_corners(mesh, low, high);
     for (unsigned f = 0; f < 6; f++) {
         uint32_t corners[4];
-        for (unsigned i = 0; i < 4; i++) { corners[i] = first + box_faces[f][i]; }
+        for (unsigned i = 0; i < 4; i++) {
+            corners[i] = first + box_faces[f][i];
+        }
         model_face(mesh, corners, 4, material);
     }
 }
@@ -93,7 +95,9 @@ void model_flat_normals(mesh_t *mesh) {
             mesh->corner_normals[face->first + i] = (uint32_t)f;
         }
         const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-        for (unsigned a = 0; a < 3; a++) { normal[a] /= length; }
+        for (unsigned a = 0; a < 3; a++) {
+            normal[a] /= length;
+        }
     }
 }
 
@@ -158,7 +162,8 @@ void model_staircase(mesh_t *mesh, unsigned steps) {
 }
 
 void model_room(mesh_t *mesh) {
-    static const unsigned colours[6][3] = {{96, 96, 128}, {200, 200, 160}, {192, 96, 96}, {96, 192, 96}, {224, 224, 224}, {144, 112, 80}};
+    static const unsigned colours[6][3] = {{96, 96, 128}, {200, 200, 160}, {192, 96, 96},
+                                           {96, 192, 96}, {224, 224, 224}, {144, 112, 80}};
     const double low[3] = {-4, -2, -4}, high[3] = {4, 2, 4};
     model_start(mesh);
     const uint32_t first = box_corners(mesh, low, high);
@@ -166,7 +171,9 @@ void model_room(mesh_t *mesh) {
         const uint32_t material = model_material(mesh, colours[f][0], colours[f][1], colours[f][2]);
         uint32_t corners[10];
         uint32_t count = 4;
-        for (unsigned i = 0; i < 4; i++) { corners[i] = first + box_faces[f][3 - i]; } /* turned inward */
+        for (unsigned i = 0; i < 4; i++) {
+            corners[i] = first + box_faces[f][3 - i];
+        } /* turned inward */
         if (f == 1) {
             /* The far wall counter-clockwise from its bottom left, along a bridge to the window, round that clockwise, and back. */
             static const double window[4][2] = {{-2, -1}, {-2, 1}, {1, 1}, {1, -1}};
@@ -175,7 +182,9 @@ void model_room(mesh_t *mesh) {
             corners[2] = first + 3;
             corners[3] = first + 2;
             corners[4] = first;
-            for (unsigned i = 0; i < 4; i++) { corners[5 + i] = model_position(mesh, window[i][0], window[i][1], -4); }
+            for (unsigned i = 0; i < 4; i++) {
+                corners[5 + i] = model_position(mesh, window[i][0], window[i][1], -4);
+            }
             corners[9] = corners[5];
             count = 10;
         }
@@ -239,7 +248,9 @@ void model_write_obj(const mesh_t *mesh, const char *path) {
             (void)fprintf(file, "usemtl m%zu\n", material);
         }
         (void)fputc('f', file);
-        for (uint32_t i = 0; i < face->count; i++) { (void)fprintf(file, " %u", mesh->corners[face->first + i] + 1); }
+        for (uint32_t i = 0; i < face->count; i++) {
+            (void)fprintf(file, " %u", mesh->corners[face->first + i] + 1);
+        }
         (void)fputc('\n', file);
     }
     assert_int_equal(fclose(file), 0);
@@ -248,7 +259,9 @@ void model_write_obj(const mesh_t *mesh, const char *path) {
 void model_compile(model_compiled_t *compiled, mesh_t *mesh) {
     sim_error_t error = {""};
     memset(compiled, 0, sizeof *compiled);
-    if (mesh_compile(mesh, NULL, &compiled->bytes, &compiled->size_bytes, &compiled->report, &error) != 0) { fail_msg("%s", error.text); }
+    if (mesh_compile(mesh, NULL, &compiled->bytes, &compiled->size_bytes, &compiled->report, &error) != 0) {
+        fail_msg("%s", error.text);
+    }
     assert_int_equal(tuile_model_open(&compiled->model, compiled->bytes, compiled->size_bytes), TUILE_OK);
     mesh_free(mesh);
 }

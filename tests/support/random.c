@@ -2,9 +2,7 @@
 
 random_source_t random_seed(uint64_t seed) {
     random_source_t source = {seed * UINT64_C(0x9e3779b97f4a7c15) + 1};
-    if (source.state == 0) {
-        source.state = 1;
-    }
+    if (source.state == 0) { source.state = 1; }
     for (int i = 0; i < 8; i++) {
         (void)random_bits(&source);
     }

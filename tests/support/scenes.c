@@ -23,7 +23,9 @@ void test_scene_open(test_scene_t *scene, const char *text) {
         fail_msg("%s\n%s", error.text, text);
     }
     if (scene->mesh.face_count) {
-        if (mesh_compile(&scene->mesh, &options, &scene->bytes, &size_bytes, &report, &error) != 0) { fail_msg("%s\n%s", error.text, text); }
+        if (mesh_compile(&scene->mesh, &options, &scene->bytes, &size_bytes, &report, &error) != 0) {
+            fail_msg("%s\n%s", error.text, text);
+        }
         assert_int_equal(tuile_model_open(&scene->model, scene->bytes, size_bytes), 0);
         scene->scene.instance_count = 1;
     }
@@ -73,7 +75,9 @@ static void store(const test_scene_t *scene, const tuile_tile_t *tile, uint32_t 
 static uint32_t *blank(const test_scene_t *scene) {
     const size_t pixels = (size_t)scene->text.width * scene->text.height;
     uint32_t *ids = malloc(pixels * sizeof *ids);
-    for (size_t i = 0; i < pixels; i++) { ids[i] = TEST_NOT_DRAWN; }
+    for (size_t i = 0; i < pixels; i++) {
+        ids[i] = TEST_NOT_DRAWN;
+    }
     return ids;
 }
 
@@ -83,22 +87,28 @@ uint32_t *test_scene_ids(const test_scene_t *scene, const tuile_config_t *config
     tuile_t *renderer = open_renderer(scene, config, memory_bytes, &block);
     uint32_t *ids = blank(scene);
     int result;
-    while ((result = tuile_next(renderer, &tile)) == 1) { store(scene, &tile, ids); }
+    while ((result = tuile_next(renderer, &tile)) == 1) {
+        store(scene, &tile, ids);
+    }
     assert_int_equal(result, 0);
     assert_int_equal(tuile_end(renderer, stats), 0);
     free(block);
     return ids;
 }
 
-uint32_t *test_scene_ids_in_order(const test_scene_t *scene, const tuile_config_t *config, size_t memory_bytes, unsigned way, uint64_t *random) {
+uint32_t *test_scene_ids_in_order(const test_scene_t *scene, const tuile_config_t *config, size_t memory_bytes, unsigned way,
+                                  uint64_t *random) {
     void *block;
     tuile_tile_t tile;
     tuile_t *renderer = open_renderer(scene, config, memory_bytes, &block);
     const tuile_config_t *c = tuile_config(renderer);
-    const uint32_t columns = (uint32_t)(c->width + c->tile_width - 1) / c->tile_width, rows = (uint32_t)(c->height + c->tile_height - 1) / c->tile_height;
+    const uint32_t columns = (uint32_t)(c->width + c->tile_width - 1) / c->tile_width,
+                   rows = (uint32_t)(c->height + c->tile_height - 1) / c->tile_height;
     const uint32_t count = columns * rows;
     uint32_t *ids = blank(scene), *order = malloc(count * sizeof *order);
-    for (uint32_t i = 0; i < count; i++) { order[i] = way == 0 ? count - 1 - i : i % rows * columns + i / rows; }
+    for (uint32_t i = 0; i < count; i++) {
+        order[i] = way == 0 ? count - 1 - i : i % rows * columns + i / rows;
+    }
     for (uint32_t i = count - 1; way == 2 && i > 0; i--) {
         const uint32_t j = (uint32_t)scene_generator_between(random, 0, (int32_t)i), swap = order[i];
         order[i] = order[j];

@@ -21,12 +21,13 @@ typedef struct test_scene {
 void test_scene_open(test_scene_t *scene, const char *text);
 void test_scene_close(test_scene_t *scene);
 
-/* Index of the poly seen at each pixel + 1, 0 = background. config may be NULL; its window, format and tie are set here. stats may be
- * NULL. The result is malloc'ed. */
+/* Index of the poly seen at each pixel + 1, 0 = background. config may be NULL; its window, format and tie are set here. stats may
+ * be NULL. The result is malloc'ed. */
 uint32_t *test_scene_ids(const test_scene_t *scene, const tuile_config_t *config, size_t memory_bytes, tuile_stats_t *stats);
 
 /* The same with the tiles drawn one by one: way 0 backwards, 1 by columns, 2 in random order. */
-uint32_t *test_scene_ids_in_order(const test_scene_t *scene, const tuile_config_t *config, size_t memory_bytes, unsigned way, uint64_t *random);
+uint32_t *test_scene_ids_in_order(const test_scene_t *scene, const tuile_config_t *config, size_t memory_bytes, unsigned way,
+                                  uint64_t *random);
 
 /* The least block for the configuration. */
 size_t test_scene_least(const test_scene_t *scene, const tuile_config_t *config);
