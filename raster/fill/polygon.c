@@ -86,35 +86,25 @@ void polygon_chain_step(const polygon_ring_t *ring, polygon_chain_t *chain, int3
     }
 }
 
-bool polygon_crossing(const polygon_ring_t *ring, int32_t row, uint32_t n, int32_t *x) {
-    /* Crossings are ordered by (pixel, side); each round finds the next one in that order. */
-    int32_t last_x = INT32_MIN;
-    uint32_t last_side = 0;
-    for (;; n--) {
-        bool found = false;
-        int32_t best_x = 0;
-        uint32_t best_side = 0;
-        for (uint32_t i = 0; i < ring->count; i++) {
-            const uint32_t next = ring_next(ring, i);
-            const int32_t from = edge_row(ring_point(ring, i).y), to = edge_row(ring_point(ring, next).y);
-            if (!(from <= row && row < to) && !(to <= row && row < from)) { continue; }
-            edge_t edge;
-            side_start(ring, &edge, from < to ? i : next, from < to ? next : i, row);
-            const bool after = edge.x > last_x || (edge.x == last_x && i > last_side && last_x != INT32_MIN);
-            if (after && (!found || edge.x < best_x)) {
-                best_x = edge.x;
-                best_side = i;
-                found = true;
-            }
-        }
-        if (!found) { return false; }
-        last_x = best_x;
-        last_side = best_side;
-        if (n == 0) {
-            *x = best_x;
-            return true;
+bool polygon_crossing(const polygon_ring_t *ring, int32_t row, polygon_cursor_t *cursor) {
+    bool found = false;
+    int32_t best_x = 0;
+    uint32_t best_side = 0;
+    for (uint32_t i = 0; i < ring->count; i++) {
+        const uint32_t next = ring_next(ring, i);
+        const int32_t from = edge_row(ring_point(ring, i).y), to = edge_row(ring_point(ring, next).y);
+        if (!(from <= row && row < to) && !(to <= row && row < from)) { continue; }
+        edge_t edge;
+        side_start(ring, &edge, from < to ? i : next, from < to ? next : i, row);
+        const bool after = !cursor->begun || edge.x > cursor->x || (edge.x == cursor->x && i > cursor->side);
+        if (after && (!found || edge.x < best_x)) {
+            best_x = edge.x;
+            best_side = i;
+            found = true;
         }
     }
+    if (found) { *cursor = (polygon_cursor_t){best_x, best_side, true}; }
+    return found;
 }
 
 /* Sorted crossings of the chains that are on this row: the order of the last row is nearly right, so insertion sort it is. */
@@ -174,14 +164,18 @@ void polygon_coverage(const polygon_ring_t *ring, int32_t width, int32_t height,
     for (; row < end; row++) {
         int32_t crossings[POLYGON_CHAINS];
         const unsigned n = stepped ? sorted_crossings(chains, count, row, crossings) : 0;
+        polygon_cursor_t cursor = {0, 0, false};
         for (uint32_t i = 0;; i += 2) {
             int32_t from, to;
             if (stepped) {
                 if (i + 1 >= n) { break; }
                 from = crossings[i];
                 to = crossings[i + 1];
-            } else if (!polygon_crossing(ring, row, i, &from) || !polygon_crossing(ring, row, i + 1, &to)) {
-                break;
+            } else {
+                if (!polygon_crossing(ring, row, &cursor)) { break; }
+                from = cursor.x;
+                if (!polygon_crossing(ring, row, &cursor)) { break; }
+                to = cursor.x;
             }
             from = from < 0 ? 0 : from;
             to = to > width ? width : to;
@@ -298,9 +292,10 @@ void polygon_fill(polygon_t *polygon, const polygon_ring_t *ring, const raster_t
                 polygon_span(polygon, tile, row, crossings[i], crossings[i + 1], kind, last);
             }
         } else {
-            int32_t from, to;
-            for (uint32_t i = 0; polygon_crossing(ring, row, i, &from) && polygon_crossing(ring, row, i + 1, &to); i += 2) {
-                polygon_span(polygon, tile, row, from, to, kind, last);
+            polygon_cursor_t cursor = {0, 0, false};
+            while (polygon_crossing(ring, row, &cursor)) {
+                const int32_t from = cursor.x;
+                if (polygon_crossing(ring, row, &cursor)) { polygon_span(polygon, tile, row, from, cursor.x, kind, last); }
             }
         }
         chains_step(ring, polygon->chains, polygon->chain_count, row);

@@ -40,9 +40,16 @@ void polygon_chain_seek(const polygon_ring_t *ring, polygon_chain_t *chain, int3
 /* The stepper one row down. */
 void polygon_chain_step(const polygon_ring_t *ring, polygon_chain_t *chain, int32_t row);
 
-/* The n-th crossing (0-based, sorted by pixel) of the ring with a row, found without any memory in O(n * count). False when
- * there are fewer. For polygons of more chains than there is room for. */
-bool polygon_crossing(const polygon_ring_t *ring, int32_t row, uint32_t n, int32_t *x);
+/* A place among the crossings of a row, which are ordered by pixel and side. Begins as {0}. */
+typedef struct polygon_cursor {
+    int32_t x;
+    uint32_t side;
+    bool begun;
+} polygon_cursor_t;
+
+/* Moves on to the next crossing of the ring with a row, found without any memory by one walk round the ring. False when there is none.
+ * For polygons of more chains than there is room for. */
+bool polygon_crossing(const polygon_ring_t *ring, int32_t row, polygon_cursor_t *cursor);
 
 /* ---- faces of more than three corners ---- */
 
