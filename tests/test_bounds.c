@@ -79,7 +79,7 @@ static void short_edges_at_the_ends_of_the_coordinates(void **state) {
 }
 
 static void leftmost_short_edge(void) {
-    const short_edge_t edge = short_edge_start(INT16_MIN + 1, 0, INT16_MIN + 1, 32, 0);
+    const short_edge_t edge = short_edge_start(INT16_MIN + 8, 0, INT16_MIN + 8, 32, 0);
     if (short_edge_pixel(edge.x) != -2048) { abort(); }
 }
 
