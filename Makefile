@@ -20,7 +20,7 @@ LDFLAGS := -no-pie
 CFLAGS_HOST := -std=c11 -O2 -g -D_GNU_SOURCE $(WARN)
 # What gcc computes behind a loop costs more than the loops of small faces save (measured: DESIGN.md, Speed).
 ifneq (,$(findstring gcc,$(CC)))
-CFLAGS_CORE += -fno-tree-scev-cprop -fno-tree-slp-vectorize
+CFLAGS_CORE += -fno-tree-scev-cprop -fno-tree-slp-vectorize -fno-tree-pre
 endif
 LIBS_SIM := -lassimp -lmeshoptimizer -lpng -lm
 LIBS_TEST := -lcmocka
@@ -142,7 +142,6 @@ test: ## builds and passes everything: gcc, sanitizers, clang
 	$(MAKE) --no-print-directory check objects
 	$(MAKE) --no-print-directory check VARIANT=asan
 	$(MAKE) --no-print-directory test-clang
-	@echo "All test programs passed, with gcc, under ASan + UBSan, and built by clang."
 
 golden: $(OBJ)/test_golden $(TUILE) $(SPIDER) $(BUNNY_6000) ## draw the golden pictures anew; look at them before you commit them
 	@UPDATE_GOLDEN=1 TUILE=$(TUILE) SPIDER=$(SPIDER) BUNNY_6000=$(BUNNY_6000) BUILD=$(BUILD) $<
