@@ -47,8 +47,8 @@ typedef struct polygon_cursor {
     bool begun;
 } polygon_cursor_t;
 
-/* Moves on to the next crossing of the ring with a row, found without any memory by one walk round the ring. False when there is none.
- * For polygons of more chains than there is room for. */
+/* Moves on to the next crossing of the ring with a row, found without any memory by one walk round the ring. False when there is
+ * none. For polygons of more chains than there is room for. */
 bool polygon_crossing(const polygon_ring_t *ring, int32_t row, polygon_cursor_t *cursor);
 
 /* ---- faces of more than three corners ---- */

@@ -41,7 +41,7 @@ TUILE_INLINE void record_emit(tuile_t *t, record_t *record, int32_t row, uint32_
     if (t->record_bytes == sizeof(record_id_t)) { ((record_id_t *)(void *)record)->id = id + 1; }
     t->stats.faces_binned++;
     if (TUILE_UNLIKELY(t->immediate)) {
-        zbuffer_draw_record(t, t->record_count);
+        t->method->draw_now(t, t->record_count);
         return;
     }
     if (row < t->region.top) { row = t->region.top; }
@@ -358,28 +358,6 @@ int bin_pass(tuile_t *t) {
     return BIN_OK;
 }
 
-void bin_record_rows(const tuile_t *t, const record_t *record, int32_t *first, int32_t *end) {
-    const vertex_t *v0 = &t->vertices[record->v0];
-    int32_t top, bottom;
-    if (record->d1 != 0) {
-        const vertex_t *v1 = v0 + record->d1, *v2 = v0 + record->d2;
-        top = v0->y;
-        bottom = v1->y > v2->y ? v1->y : v2->y;
-    } else {
-        const polygon_slot_t *slot = (const polygon_slot_t *)(const void *)v0;
-        const uint8_t *list = slot->listed ? (const uint8_t *)(slot + 1) : NULL;
-        top = INT32_MAX;
-        bottom = INT32_MIN;
-        for (unsigned i = 0; i < slot->count; i++) {
-            const int32_t y = t->vertices[slot->base + (list ? list[i] : i)].y;
-            top = y < top ? y : top;
-            bottom = y > bottom ? y : bottom;
-        }
-    }
-    *first = edge_row(top);
-    *end = edge_row(bottom);
-}
-
 void bin_again(tuile_t *t, uint16_t row) {
     const int32_t top = row * t->config.tile_height;
     for (uint32_t r = row; r < t->pass_end; r++) {
@@ -388,7 +366,7 @@ void bin_again(tuile_t *t, uint16_t row) {
     for (uint32_t i = 0; i < t->record_count; i++) {
         record_t *record = frame_record(t, i);
         int32_t first, end;
-        bin_record_rows(t, record, &first, &end);
+        frame_record_rows(t, record, &first, &end);
         if (end <= top) { continue; }
         uint16_t *bucket = &t->buckets[(uint32_t)(first < top ? top : first) / t->config.tile_height];
         record->next = *bucket;

@@ -24,32 +24,6 @@ const char *tuile_error_text(int error) {
     }
 }
 
-/* ---- materials ---- */
-
-const uint8_t *frame_material(const tuile_t *t, uint32_t material) {
-    const tuile_scene_t *scene = t->scene;
-    for (unsigned i = 0; i < scene->instance_count; i++) {
-        const tuile_model_t *model = scene->instances[i].model;
-        unsigned earlier = 0;
-        while (scene->instances[earlier].model != model) {
-            earlier++;
-        }
-        if (earlier < i) { continue; } /* counted already */
-        if (material < model->material_count) { return model->materials + 4 * material; }
-        material -= model->material_count;
-    }
-    return scene->background;
-}
-
-TUILE_NOINLINE void frame_ramp_make(tuile_t *t, uint32_t material, uint32_t slot) {
-    uint16_t *ramp = t->ramps + slot * RAMP_COLOURS;
-    const uint8_t *colour = frame_material(t, material);
-    for (uint32_t i = 0; i < RAMP_COLOURS; i++) {
-        ramp[i] = resolve_lit(t->config.format, colour, (i * 255u + 31u) / 63u);
-    }
-    t->ramp_tags[slot] = (int16_t)material;
-}
-
 /* ---- init ---- */
 
 /* Tile height that leaves five sixths of the block to the arena: a second pass costs more than lower tiles do. */
@@ -112,6 +86,7 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     t->arena_end = (uint8_t *)block + (size_bytes & ~(size_t)7u);
     t->record_bytes = c.format == TUILE_FACE_IDS ? sizeof(record_id_t) : sizeof(record_t);
     t->rows_hint = t->tile_rows;
+    t->method = &visibility_zbuffer; /* the only one yet */
     t->span_kind = c.format == TUILE_FACE_IDS ? SPAN_IDS : c.shade == TUILE_GOURAUD ? SPAN_GOURAUD : SPAN_FLAT;
     *renderer = t;
     return TUILE_OK;
@@ -254,7 +229,7 @@ static int draw(tuile_t *t, uint32_t row, uint32_t column) {
         error = pass_begin(t, row);
         if (error) { return error; }
     }
-    zbuffer_clear(t);
+    t->method->clear(t);
     if (t->immediate) {
         pass_set(t, row, row + 1, column, true);
         error = bin_pass(t);
@@ -266,7 +241,7 @@ static int draw(tuile_t *t, uint32_t row, uint32_t column) {
         bin_again(t, (uint16_t)row);
         rows_restart(t, row);
     }
-    zbuffer_draw_tile(t, (uint16_t)row, (uint16_t)column);
+    t->method->draw_tile(t, (uint16_t)row, (uint16_t)column);
     pass_measure(t, (size_t)(t->stream_end - t->stream));
     return TUILE_OK;
 }

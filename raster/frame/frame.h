@@ -47,7 +47,20 @@ typedef struct polygon_slot {
 } polygon_slot_t;
 _Static_assert(sizeof(vertex_t) == 8 && sizeof(polygon_slot_t) == 8 && sizeof(record_t) == 8, "one slot");
 
+/* A hidden-surface method: what a frame asks of it. t->tile is the tile that is being drawn. */
+typedef struct visibility_method {
+    /* Background into the tile. */
+    void (*clear)(tuile_t *t);
+    /* Immediate pass: the face of a record into the tile; the record goes away after the call. */
+    void (*draw_now)(tuile_t *t, uint32_t number);
+    /* All faces of column `column` of tile row `row` into the tile; rows do not go back within a pass. */
+    void (*draw_tile)(tuile_t *t, uint16_t row, uint16_t column);
+} visibility_method_t;
+
+extern const visibility_method_t visibility_zbuffer; /* visibility/zbuffer.c */
+
 typedef struct tuile {
+    const visibility_method_t *method;
     tuile_config_t config;
     const tuile_scene_t *scene;
     tuile_stats_t stats;
@@ -98,21 +111,21 @@ TUILE_INLINE uint32_t frame_record_id(const record_t *record) { return ((const r
 /* ---- bin.c: the vertex stage and the faces of a pass ---- */
 
 /* Runs all clusters over the region of the pass. 0, 1 when the arena was full, or a negative error. In an immediate pass each
- * face is handed to zbuffer_draw_record at once and never overflows unless a single cluster does. */
+ * face is handed to the method at once and never overflows unless a single cluster does. */
 int bin_pass(tuile_t *t);
 
 /* Hangs all records that reach tile row `row` or below into the buckets again. */
 void bin_again(tuile_t *t, uint16_t row);
 
+/* ---- record.c ---- */
+
+TUILE_INLINE bool frame_record_is_triangle(const record_t *record) { return record->d1 != 0; }
+
+/* The corners of a face of more than three. */
+polygon_ring_t frame_record_ring(const tuile_t *t, const record_t *record);
+
 /* The rows of pixel centres that a record's face covers. */
-void bin_record_rows(const tuile_t *t, const record_t *record, int32_t *first, int32_t *end);
-
-/* ---- visibility/zbuffer.c: one tile ---- */
-
-void zbuffer_clear(tuile_t *t);
-void zbuffer_draw_record(tuile_t *t, uint32_t number);
-/* Draws column `column` of tile row `row`; rows must not go back within a pass. */
-void zbuffer_draw_tile(tuile_t *t, uint16_t row, uint16_t column);
+void frame_record_rows(const tuile_t *t, const record_t *record, int32_t *first, int32_t *end);
 
 /* ---- resolve.c: colours in wire order ---- */
 
@@ -121,6 +134,8 @@ uint16_t resolve_colour(uint8_t format, uint8_t red, uint8_t green, uint8_t blue
 
 /* colour * light / 255, rounded. light 0 ... 255. */
 uint16_t resolve_lit(uint8_t format, const uint8_t colour[3], uint32_t light);
+
+/* ---- ramp.c ---- */
 
 /* The colour of a material, counted through the models of the scene. */
 const uint8_t *frame_material(const tuile_t *t, uint32_t material);

@@ -19,13 +19,6 @@ typedef union state {
     polygon_t polygon;
 } state_t;
 
-static bool is_triangle(const record_t *record) { return record->d1 != 0; }
-
-static polygon_ring_t record_ring(const tuile_t *t, const record_t *record) {
-    const polygon_slot_t *slot = (const polygon_slot_t *)(const void *)&t->vertices[record->v0];
-    return (polygon_ring_t){t->vertices + slot->base, slot->listed ? (const uint8_t *)(slot + 1) : NULL, NULL, slot->count};
-}
-
 /* Colour or id. */
 static uint32_t face_value(const tuile_t *t, const record_t *record) {
     if (t->span_kind == SPAN_IDS) { return frame_record_id(record); }
@@ -35,13 +28,13 @@ static uint32_t face_value(const tuile_t *t, const record_t *record) {
 /* False when the face covers no row from `row` on. */
 TUILE_INLINE bool state_start(tuile_t *t, state_t *state, const record_t *record, uint32_t number, int32_t row) {
     t->stats.faces_setup++;
-    if (TUILE_LIKELY(is_triangle(record))) {
+    if (TUILE_LIKELY(frame_record_is_triangle(record))) {
         const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
         triangle_start(&state->triangle, v0, v1, v2, row, t->span_kind == SPAN_GOURAUD);
         state->head.size_bytes = (sizeof(triangle_t) + 7u) & ~7u;
         state->triangle.value = t->span_kind == SPAN_GOURAUD ? record->material : face_value(t, record);
     } else {
-        const polygon_ring_t ring = record_ring(t, record);
+        const polygon_ring_t ring = frame_record_ring(t, record);
         if (!polygon_start(&state->polygon, &ring, row)) { return false; }
         state->polygon.value = face_value(t, record);
         state->head.size_bytes = (uint16_t)((state->head.size_bytes + 7u) & ~7u);
@@ -53,23 +46,23 @@ TUILE_INLINE bool state_start(tuile_t *t, state_t *state, const record_t *record
 /* Draws what of the face lies in the tile. True when the face reaches below it. */
 TUILE_INLINE bool state_fill(tuile_t *t, state_t *state, const record_t *record) {
     const bool last = t->config.tie == TUILE_TIE_LAST;
-    if (TUILE_LIKELY(is_triangle(record))) {
+    if (TUILE_LIKELY(frame_record_is_triangle(record))) {
         triangle_t *triangle = &state->triangle;
         triangle_fill(triangle, &t->tile, t->span_kind, last, t->span_kind == SPAN_GOURAUD ? frame_ramp(t, triangle->value) : NULL);
         return triangle->row < triangle->head.row_end;
     }
-    const polygon_ring_t ring = record_ring(t, record);
+    const polygon_ring_t ring = frame_record_ring(t, record);
     polygon_fill(&state->polygon, &ring, &t->tile, t->span_kind == SPAN_IDS ? SPAN_IDS : SPAN_FLAT, last);
     return state->polygon.row < state->head.row_end;
 }
 
 static bool state_skip(const tuile_t *t, state_t *state, int32_t row) {
     const record_t *record = frame_record(t, state->head.record);
-    if (is_triangle(record)) {
+    if (frame_record_is_triangle(record)) {
         triangle_skip(&state->triangle, row);
         return state->triangle.row < state->head.row_end;
     }
-    const polygon_ring_t ring = record_ring(t, record);
+    const polygon_ring_t ring = frame_record_ring(t, record);
     polygon_skip(&state->polygon, &ring, row);
     return state->polygon.row < state->head.row_end;
 }
@@ -227,7 +220,7 @@ static void column_draw(tuile_t *t, int32_t top) {
         at += carried->head.size_bytes;
         if (!state_in_columns(t, carried)) { continue; }
         const record_t *record = frame_record(t, carried->head.record);
-        if (is_triangle(record)) {
+        if (frame_record_is_triangle(record)) {
             local.triangle = carried->triangle;
         } else {
             memcpy(&local, carried, carried->head.size_bytes);
@@ -256,7 +249,7 @@ static void row_advance(tuile_t *t, int32_t bottom) {
         record_t *record = frame_record(t, number - 1u);
         int32_t first, row_end;
         list = record->next;
-        bin_record_rows(t, record, &first, &row_end);
+        frame_record_rows(t, record, &first, &row_end);
         if (row_end > bottom) {
             *end = number;
             end = &record->next;
@@ -288,20 +281,20 @@ static void fill_words(void *bytes, uint32_t word, size_t size_bytes) {
     }
 }
 
-void zbuffer_clear(tuile_t *t) {
+static void zbuffer_clear(tuile_t *t) {
     const size_t pixels = (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top);
     const bool ids = t->config.format == TUILE_FACE_IDS;
     fill_words(t->tile.depth, 0, pixels * sizeof(uint16_t));
     fill_words(t->tile.colour, ids ? 0 : t->background * 0x10001u, pixels * (ids ? sizeof(uint32_t) : sizeof(uint16_t)));
 }
 
-void zbuffer_draw_record(tuile_t *t, uint32_t number) {
+static void zbuffer_draw_now(tuile_t *t, uint32_t number) {
     state_t local;
     const record_t *record = frame_record(t, number);
     if (state_start(t, &local, record, number, t->tile.top) && state_in_columns(t, &local)) { (void)state_fill(t, &local, record); }
 }
 
-void zbuffer_draw_tile(tuile_t *t, uint16_t row, uint16_t column) {
+static void zbuffer_draw_tile(tuile_t *t, uint16_t row, uint16_t column) {
     while (t->row < row) {
         if (t->row_ready) {
             row_advance(t, row_bottom(t, t->row));
@@ -323,3 +316,5 @@ void zbuffer_draw_tile(tuile_t *t, uint16_t row, uint16_t column) {
     (void)column;
     column_draw(t, row_top(t, row));
 }
+
+const visibility_method_t visibility_zbuffer = {zbuffer_clear, zbuffer_draw_now, zbuffer_draw_tile};

@@ -1,0 +1,26 @@
+/* The colours of materials, and the ramps from black to full light that Gouraud shading looks its pixels up in. */
+#include "frame.h"
+
+const uint8_t *frame_material(const tuile_t *t, uint32_t material) {
+    const tuile_scene_t *scene = t->scene;
+    for (unsigned i = 0; i < scene->instance_count; i++) {
+        const tuile_model_t *model = scene->instances[i].model;
+        unsigned earlier = 0;
+        while (scene->instances[earlier].model != model) {
+            earlier++;
+        }
+        if (earlier < i) { continue; } /* counted already */
+        if (material < model->material_count) { return model->materials + 4 * material; }
+        material -= model->material_count;
+    }
+    return scene->background;
+}
+
+TUILE_NOINLINE void frame_ramp_make(tuile_t *t, uint32_t material, uint32_t slot) {
+    uint16_t *ramp = t->ramps + slot * RAMP_COLOURS;
+    const uint8_t *colour = frame_material(t, material);
+    for (uint32_t i = 0; i < RAMP_COLOURS; i++) {
+        ramp[i] = resolve_lit(t->config.format, colour, (i * 255u + 31u) / 63u);
+    }
+    t->ramp_tags[slot] = (int16_t)material;
+}
