@@ -15,7 +15,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const char usage[] =
     "Usage: tuile render MODEL [options]\n"
@@ -428,17 +427,6 @@ static int draw_frame(render_t *r, unsigned frame) {
     return code;
 }
 
-static void progress(unsigned done, unsigned of) {
-    char bar[37];
-    if (!isatty(STDERR_FILENO)) { return; }
-    const unsigned filled = done * 36 / of;
-    for (unsigned i = 0; i < 36; i++) {
-        bar[i] = i < filled ? '#' : '.';
-    }
-    bar[36] = '\0';
-    (void)fprintf(stderr, "\r[%s] %u/%u%s", bar, done, of, done == of ? "\n" : "");
-}
-
 static int run(render_t *r) {
     int code = set_up(r);
     if (code) { return code; }
@@ -448,7 +436,7 @@ static int run(render_t *r) {
     }
     for (unsigned frame = 0; code == 0 && frame < (unsigned)r->frames; frame++) {
         code = draw_frame(r, frame);
-        if (code == 0 && r->frames > 1) { progress(frame + 1, (unsigned)r->frames); }
+        if (code == 0 && r->frames > 1) { command_progress(frame + 1, (unsigned)r->frames); }
     }
     if (code == 0 && r->pick) { code = print_pick(r); }
     if (code == 0 && r->sheet) {
@@ -469,7 +457,7 @@ static int run(render_t *r) {
         }
     }
     if (code) { return code; }
-    if (r->out || r->sheet || r->report) {
+    if (r->out || r->sheet || r->report || !(r->hash || r->pick || r->ids)) {
         (void)printf("%s: %u faces; memory given %u, least %u, used %u bytes, %u pass%s; %u tiles, %llu bytes on the wire; the bus "
                      "allows %.1f fps\n",
                      r->model_path, r->stats.faces, r->stats.size_bytes, r->stats.least_bytes, r->peak_bytes, r->passes_max,

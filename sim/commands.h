@@ -15,6 +15,9 @@ __attribute__((format(printf, 1, 2)))
 #endif
 int command_fail(const char *format, ...);
 
+/* A bar on stderr, when that is a terminal; done = of ends it. */
+void command_progress(unsigned done, unsigned of);
+
 /* Flushes stdout; a full disk or closed pipe is an error like any other. Returns the exit code. */
 int command_finish(void);
 
