@@ -14,7 +14,9 @@ void command_progress(unsigned done, unsigned of) {
     enum { CELLS = 36 };
     if (!isatty(STDERR_FILENO)) { return; }
     (void)fprintf(stderr, "\r[");
-    for (unsigned i = 0; i < CELLS; i++) { (void)fputc(i < done * CELLS / of ? '#' : '.', stderr); }
+    for (unsigned i = 0; i < CELLS; i++) {
+        (void)fputc(i < done * CELLS / of ? '#' : '.', stderr);
+    }
     (void)fprintf(stderr, "] %u/%u%s", done, of, done == of ? "\n" : "");
     bar_open = done < of;
 }

@@ -3,6 +3,11 @@
 # libc but the four functions every compiler may call. Usage: objects.sh OBJECT...
 set -eu
 status=0
+# Freestanding: none of a hosted library's headers.
+if grep -nE '#include <' -r raster hal firmware --include='*.c' --include='*.h' | grep -vE '<(stdbool|stddef|stdint|limits|stdalign)\.h>'; then
+    echo "objects: hosted headers above"
+    status=1
+fi
 undefined=$(nm -u "$@" | awk '$1 == "U" { print $2 }' | sort -u)
 defined=$(nm "$@" | awk 'NF == 3 && $2 ~ /[TDRBC]/ { print $3 }' | sort -u)
 for symbol in $undefined; do

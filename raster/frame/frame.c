@@ -8,7 +8,7 @@
  */
 #include "frame.h"
 
-#include <string.h>
+#include "../memory.h"
 
 const char *tuile_error_text(int error) {
     switch (error) {

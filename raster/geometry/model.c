@@ -1,7 +1,7 @@
 /* Opening a compiled model: nothing in it is believed before it was checked, since it may come from a damaged file. */
 #include "model.h"
 
-#include <string.h>
+#include "../memory.h"
 
 _Static_assert(sizeof(void *) >= 4 || sizeof(void *) == 2, "pointers");
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__

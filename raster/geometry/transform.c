@@ -10,7 +10,7 @@
 
 #include "wide.h"
 
-#include <string.h>
+#include "../memory.h"
 
 typedef struct wide_row {
     wide_t m[3], t;

@@ -10,7 +10,7 @@
  */
 #include "../frame/frame.h"
 
-#include <string.h>
+#include "../memory.h"
 
 /* A state in the stream, seen as any of its kinds. */
 typedef union state {
