@@ -241,7 +241,7 @@ static int draw(tuile_t *t, uint32_t row, uint32_t column) {
         bin_again(t, (uint16_t)row);
         rows_restart(t, row);
     }
-    t->method->draw_tile(t, (uint16_t)row, (uint16_t)column);
+    t->method->draw_tile(t, (uint16_t)row);
     pass_measure(t, (size_t)(t->stream_end - t->stream));
     return TUILE_OK;
 }

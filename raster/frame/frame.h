@@ -53,8 +53,8 @@ typedef struct visibility_method {
     void (*clear)(tuile_t *t);
     /* Immediate pass: the face of a record into the tile; the record goes away after the call. */
     void (*draw_now)(tuile_t *t, uint32_t number);
-    /* All faces of column `column` of tile row `row` into the tile; rows do not go back within a pass. */
-    void (*draw_tile)(tuile_t *t, uint16_t row, uint16_t column);
+    /* All faces of tile row `row` into the tile, one of that row's columns; rows do not go back within a pass. */
+    void (*draw_tile)(tuile_t *t, uint16_t row);
 } visibility_method_t;
 
 extern const visibility_method_t visibility_zbuffer; /* visibility/zbuffer.c */

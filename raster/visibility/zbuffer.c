@@ -294,7 +294,7 @@ static void zbuffer_draw_now(tuile_t *t, uint32_t number) {
     if (state_start(t, &local, record, number, t->tile.top) && state_in_columns(t, &local)) { (void)state_fill(t, &local, record); }
 }
 
-static void zbuffer_draw_tile(tuile_t *t, uint16_t row, uint16_t column) {
+static void zbuffer_draw_tile(tuile_t *t, uint16_t row) {
     while (t->row < row) {
         if (t->row_ready) {
             row_advance(t, row_bottom(t, t->row));
@@ -313,7 +313,6 @@ static void zbuffer_draw_tile(tuile_t *t, uint16_t row, uint16_t column) {
         row_gather(t, row_top(t, row));
         t->row_ready = true;
     }
-    (void)column;
     column_draw(t, row_top(t, row));
 }
 
