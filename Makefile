@@ -18,10 +18,6 @@ WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wpointer-arith -W
 CFLAGS_CORE := -std=c11 -O2 -g -ffreestanding -fno-pie $(WARN) # as on a board: constants with pointers are read-only
 LDFLAGS := -no-pie
 CFLAGS_HOST := -std=c11 -O2 -g -D_GNU_SOURCE $(WARN)
-# What gcc computes behind a loop costs more than the loops of small faces save (measured: DESIGN.md, Speed).
-ifneq (,$(findstring gcc,$(CC)))
-CFLAGS_CORE += -fno-tree-scev-cprop -fno-tree-slp-vectorize -fno-tree-pre
-endif
 LIBS_SIM := -lassimp -lmeshoptimizer -lpng -lm
 LIBS_TEST := -lcmocka
 ifeq ($(VARIANT),asan)
@@ -32,7 +28,7 @@ endif
 
 CORE_SRC := $(wildcard raster/*.c raster/*/*.c hal/*.c hal/*/*.c) firmware/stream.c
 SIM_SRC := $(wildcard sim/*.c sim/*/*.c)
-REFERENCE_SRC := $(filter-out tests/reference/selftest.c,$(wildcard tests/reference/*.c))
+REFERENCE_SRC := $(wildcard tests/reference/*.c)
 SUPPORT_SRC := $(wildcard tests/support/*.c)
 TEST_SRC := $(wildcard tests/test_*.c)
 FUZZ_SRC := $(wildcard tests/fuzz_*.c)
@@ -42,7 +38,7 @@ CORE_OBJ := $(call objects,$(CORE_SRC))
 SIM_OBJ := $(call objects,$(SIM_SRC))
 SIM_LIB_OBJ := $(filter-out $(OBJ)/sim/main.o,$(SIM_OBJ))
 TEST_LIB_OBJ := $(call objects,$(REFERENCE_SRC) $(SUPPORT_SRC))
-TESTS := $(patsubst tests/%.c,$(OBJ)/%,$(TEST_SRC)) $(OBJ)/test_reference
+TESTS := $(patsubst tests/%.c,$(OBJ)/%,$(TEST_SRC))
 FUZZERS := $(patsubst tests/%.c,$(OBJ)/%,$(FUZZ_SRC))
 
 ifeq ($(VARIANT),release)
@@ -92,9 +88,6 @@ $(OBJ)/tests/%.o: tests/%.c Makefile | $(BUILD)/need/test $(BUILD)/need/sim
 
 $(TUILE): $(SIM_OBJ) $(CORE_OBJ)
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
-
-$(OBJ)/test_reference: $(OBJ)/tests/reference/selftest.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
-	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@
 
 $(OBJ)/test_%: $(OBJ)/tests/test_%.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@

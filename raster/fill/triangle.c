@@ -12,6 +12,8 @@
  * |num| < 2^18, 2^-9 level a pixel, 1/8 level. With the rounding to nearest the depth is within 1/2 + 1/4 + 2^-15 step of the exact
  * plane through the snapped vertices.
  */
+#include "../tune.h"
+
 #include "triangle.h"
 
 #define SMALL_DEPTH (1 << 17)

@@ -1,4 +1,6 @@
 /* From clusters to records: vertex stage, culling, clipping, and the bucket of the tile row where each face starts. */
+#include "../tune.h"
+
 #include "frame.h"
 
 enum { BIN_OK = 0, BIN_FULL = 1 };

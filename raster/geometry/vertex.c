@@ -6,6 +6,8 @@
  * that is 1/80 pixel before the snap. Vertices nearer than w_fast are projected from fine coordinates instead. The choice depends
  * on the vertex alone, so a vertex that stands in two clusters comes out the same in both.
  */
+#include "../tune.h"
+
 #include "vertex.h"
 
 static vertex_t outside(uint8_t light) { return (vertex_t){VERTEX_OUTSIDE, 0, light}; }

@@ -8,6 +8,8 @@
  * row enter the stream before the first tile is drawn; each tile draws from copies, so that tiles may come in any order. Behind the
  * last tile the states that reach further are moved on to the next row.
  */
+#include "../tune.h"
+
 #include "../frame/frame.h"
 
 #include "../memory.h"

@@ -1,0 +1,426 @@
+/* Frames on their way to the panel: faults at every transfer, whose buffer it is, time on the wire, and the frame loop.
+ *
+ * Numbers that are expected come from hand, never from the code under test. The frame loop is tested against a renderer of our own,
+ * so that it can be made to fail at will. */
+#include "support/check.h"
+
+#include "../hal/display.h"
+#include "../hal/panels/ili9341.h"
+#include "../raster/tuile.h"
+#include "../sim/bus.h"
+#include "../sim/chips/ili9341.h"
+#include "support/board.h"
+
+/* ---- faults ----------------------------------------------------------------------------------------------------- */
+
+/* Makes a display and a frame; the one fault must come up by the end of the frame, and stick. */
+static void check_fault_at(uint64_t transfer, uint8_t parts, bool no_reset_pin, bool blocking) {
+    board_t board;
+    int result;
+    uint64_t transfers;
+
+    board_open(&board, &(sim_bus_config_t){.fail_transfer = transfer,
+                                           .fail_parts = parts,
+                                           .no_reset_pin = no_reset_pin,
+                                           .blocking = blocking,
+                                           .max_chunk_bytes = 20000});
+    result = board_start(&board, 1, TUILE_WIRE_RGB565);
+    if (result == 0) { result = board_draw(&board.display, TUILE_WIRE_RGB565, 320, 40); }
+    assert_int_equal(result, TUILE_HAL_IO);
+    assert_int_equal(board.display.error, TUILE_HAL_IO);
+    transfers = board.bus.transfers;
+    assert_true(transfers == transfer);
+    assert_int_equal(board_draw(&board.display, TUILE_WIRE_RGB565, 320, 40), TUILE_HAL_IO);
+    assert_true(board.bus.transfers == transfers);
+    assert_int_equal(tuile_display_resume(&board.display), 0);
+    assert_true(board.display.refresh);
+    assert_int_equal(board_draw(&board.display, TUILE_WIRE_RGB565, 320, 40), 0);
+    assert_false(board.display.refresh);
+    board_check_clean(&board);
+    board_check_picture(&board, 1, TUILE_WIRE_RGB565);
+    board_close(&board);
+}
+
+static uint64_t count_transfers(bool no_reset_pin) {
+    board_t board;
+    uint64_t transfers;
+
+    board_open(&board, &(sim_bus_config_t){.no_reset_pin = no_reset_pin, .max_chunk_bytes = 20000});
+    assert_int_equal(board_start(&board, 1, TUILE_WIRE_RGB565), 0);
+    assert_int_equal(board_draw(&board.display, TUILE_WIRE_RGB565, 320, 40), 0);
+    transfers = board.bus.transfers;
+    board_close(&board);
+    return transfers;
+}
+
+static void test_fault_at_every_transfer(void **state) {
+    (void)state;
+    for (unsigned variant = 0; variant < 12; variant++) {
+        bool no_reset_pin = variant % 2, blocking = variant / 2 % 2;
+        uint64_t count = count_transfers(no_reset_pin);
+        /* 18 + 3 commands of the start, one more without the pin; 6 tiles of 3 commands and 2 chunks */
+        assert_true(count == 21u + no_reset_pin + 30u);
+        for (uint64_t transfer = 1; transfer <= count; transfer++) {
+            check_fault_at(transfer, (uint8_t)(variant / 4), no_reset_pin, blocking);
+        }
+    }
+}
+
+static void test_gone_at_every_transfer(void **state) {
+    (void)state;
+    for (uint64_t transfer = 1; transfer <= 51; transfer++) {
+        board_t board;
+        int result;
+        board_open(&board, &(sim_bus_config_t){.fail_transfer = transfer, .fail_code = TUILE_HAL_GONE, .max_chunk_bytes = 20000});
+        result = board_start(&board, 1, TUILE_WIRE_RGB565);
+        if (result == 0) { result = board_draw(&board.display, TUILE_WIRE_RGB565, 320, 40); }
+        assert_int_equal(result, TUILE_HAL_GONE);
+        assert_int_equal(tuile_display_resume(&board.display), TUILE_HAL_GONE);
+        assert_true(board.bus.transfers == transfer);
+        board_close(&board);
+    }
+}
+
+/* ---- ownership -------------------------------------------------------------------------------------------------- */
+
+static bool row_is(const board_t *board, uint32_t row, uint8_t value) {
+    for (uint32_t x = 0; x < 240; x++) {
+        if (sim_dcs_memory(board->chip, x, row) != (value ? 0x3FFFF : 0u)) { return false; }
+    }
+    return true;
+}
+
+static void test_buffer_in_flight_is_not_ours(void **state) {
+    board_t board;
+    uint8_t a[480], b[480];
+
+    (void)state;
+    board_open(&board, NULL);
+    board_start(&board, 0, TUILE_WIRE_RGB565);
+    tuile_display_window(&board.display, 0, 0, 240, 3);
+    memset(a, 0xFF, sizeof a);
+    memset(b, 0xFF, sizeof b);
+    assert_int_equal(tuile_display_write(&board.display, a, sizeof a), 0);
+    memset(a, 0, sizeof a); /* too early: the simulator shows it */
+    assert_int_equal(tuile_display_write(&board.display, b, sizeof b), 0);
+    assert_true(row_is(&board, 0, 0));
+    memset(a, 0xFF, sizeof a); /* now it is ours again */
+    assert_int_equal(tuile_display_write(&board.display, a, sizeof a), 0);
+    memset(b, 0, sizeof b); /* b is out */
+    assert_int_equal(tuile_display_wait(&board.display), 0);
+    memset(a, 0, sizeof a); /* and a */
+    assert_true(row_is(&board, 1, 0xFF));
+    assert_true(row_is(&board, 2, 0xFF));
+    board_close(&board);
+}
+
+/* ---- time ------------------------------------------------------------------------------------------------------- */
+
+static void test_time_on_the_wire(void **state) {
+    static uint8_t frame[153600];
+    board_t board;
+    uint64_t before_ns;
+    tuile_display_config_t config = {.panel = &tuile_ili9341, .pixel_clock_hz = 62500000};
+
+    (void)state;
+    board_open(&board, &(sim_bus_config_t){.command_gap_ns = 1000, .chunk_gap_ns = 2000, .max_chunk_bytes = 4096});
+    config.bus = &board.bus.bus;
+    assert_int_equal(tuile_display_init(&board.display, &config), 0);
+    memset(&board.bus.counts, 0, sizeof board.bus.counts);
+    before_ns = board.bus.now_ns;
+    tuile_display_window(&board.display, 0, 0, 240, 320);
+    tuile_display_write(&board.display, frame, sizeof frame);
+    assert_int_equal(tuile_display_present(&board.display), 0);
+    assert_int_equal(board.bus.counts.commands, 3);
+    assert_int_equal(board.bus.counts.command_bytes, 11);
+    assert_int_equal(board.bus.counts.chunks, 38); /* 37 of 4096 and one of 2048 */
+    assert_int_equal(board.bus.counts.data_bytes, 153600);
+    /* 153600 * 8 bits * 16 ns; 11 * 8 bits * 100 ns */
+    assert_int_equal(board.bus.counts.wire_ns, 19660800 + 8800);
+    assert_int_equal(board.bus.counts.gap_ns, 3 * 1000 + 38 * 2000);
+    assert_int_equal(board.bus.now_ns - before_ns, 19660800 + 8800 + 79000);
+    assert_true(board.chip->warnings > 0); /* beyond the rated 10 MHz */
+    assert_non_null(strstr(board.chip->warning.text, "62500000 Hz"));
+    board_close(&board);
+}
+
+static void test_real_clock_differs_from_the_one_asked_for(void **state) {
+    static uint8_t row[480];
+    board_t board;
+
+    (void)state;
+    board_open(&board, &(sim_bus_config_t){.clock_hz = 15625000, .command_clock_hz = 9000000});
+    board_start(&board, 0, TUILE_WIRE_RGB565);
+    memset(&board.bus.counts, 0, sizeof board.bus.counts);
+    tuile_display_window(&board.display, 0, 0, 240, 1);
+    tuile_display_write(&board.display, row, sizeof row);
+    tuile_display_wait(&board.display);
+    /* 480 * 8 * 64 ns; 5, 5 and 1 bytes at 9 MHz: 4444.4, 4444.4 and 888.8 ns, each rounded up */
+    assert_int_equal(board.bus.counts.wire_ns, 245760 + 4445 + 4445 + 889);
+    board_close(&board);
+}
+
+static void test_work_overlaps_the_wire(void **state) {
+    static uint8_t strip[2][240 * 32 * 2]; /* 15 360 bytes: 12 288 000 ns at 10 MHz */
+    board_t board;
+    uint64_t before_ns;
+    tuile_display_config_t config = {.panel = &tuile_ili9341, .pixel_clock_hz = 10000000};
+
+    (void)state;
+    for (unsigned blocking = 0; blocking < 2; blocking++) {
+        board_open(&board, &(sim_bus_config_t){.blocking = blocking});
+        config.bus = &board.bus.bus;
+        assert_int_equal(tuile_display_init(&board.display, &config), 0);
+        assert_int_equal(board.chip->warnings, 0);
+        memset(&board.bus.counts, 0, sizeof board.bus.counts);
+        before_ns = board.bus.now_ns;
+        for (uint32_t i = 0; i < 10; i++) {
+            sim_bus_work(&board.bus, 5000000);
+            tuile_display_window(&board.display, 0, 32 * i, 240, 32);
+            tuile_display_write(&board.display, strip[i & 1], sizeof strip[0]);
+        }
+        assert_int_equal(tuile_display_present(&board.display), 0);
+        /* With overlap only the first 5 ms of work are seen. */
+        assert_int_equal(board.bus.now_ns - before_ns, 10 * (12288000 + 8800) + (blocking ? 10 : 1) * 5000000);
+        assert_int_equal(board.bus.counts.work_ns, 50000000);
+        assert_int_equal(board.bus.counts.idle_ns, blocking ? 122880000 : 122880000 - 45000000);
+        board_close(&board);
+    }
+}
+
+/* ---- the frame loop --------------------------------------------------------------------------------------------- */
+
+/* A renderer of 10 tiles of 240 x 32, that fails where it is told to and looks at what the loop does. Its buffers are poisoned
+ * before they are drawn anew: two of them, or one, as a real renderer has. */
+struct tuile {
+    tuile_config_t config;
+    unsigned next, begun, ended;
+    int begin_error, next_error, end_error;
+    unsigned fail_at; /* tile */
+    const sim_bus_t *bus;
+    uint8_t buffers[2][240 * 32 * 2];
+};
+
+static int fake_begin(tuile_t *renderer, const tuile_scene_t *scene) {
+    (void)scene;
+    if (renderer->begin_error) { return renderer->begin_error; }
+    renderer->begun++;
+    renderer->next = 0;
+    return 0;
+}
+
+static int fake_next(tuile_t *renderer, tuile_tile_t *tile) {
+    uint8_t *to = renderer->buffers[renderer->config.buffers == 2 ? renderer->next & 1 : 0];
+    uint32_t y = 32 * renderer->next;
+
+    *tile = (tuile_tile_t){0};
+    if (renderer->next_error && renderer->next == renderer->fail_at) { return renderer->next_error; }
+    if (renderer->next == 10) { return 0; }
+    memset(to, 0, sizeof renderer->buffers[0]);
+    for (uint32_t row = 0; row < 32; row++) {
+        for (uint32_t x = 0; x < 240; x++) {
+            board_put_pixel(to + 2 * (row * 240 + x), TUILE_WIRE_RGB565, board_colour(240, x, y + row));
+        }
+    }
+    *tile = (tuile_tile_t){0, (uint16_t)y, 240, 32, to, sizeof renderer->buffers[0]};
+    renderer->next++;
+    return 1;
+}
+
+static int fake_end(tuile_t *renderer, tuile_stats_t *stats) {
+    assert_null(renderer->bus->flying); /* the block is the renderer's again */
+    renderer->ended++;
+    if (stats) { stats->tiles = renderer->next; }
+    return renderer->end_error;
+}
+
+static const tuile_config_t *fake_config(const tuile_t *renderer) { return &renderer->config; }
+
+static const char *fake_error_text(int error) { return error ? "renderer" : "no error"; }
+
+/* The loop itself, over that renderer, whatever else is linked. */
+#define tuile_begin fake_begin
+#define tuile_next fake_next
+#define tuile_end fake_end
+#define tuile_config fake_config
+#define tuile_error_text fake_error_text
+#define tuile_stream_frame stream_frame_under_test
+#define tuile_stream_error_text stream_error_text_under_test
+#define check stream_check
+#define send stream_send
+#include "../firmware/stream.c"
+#undef check
+#undef send
+
+static const tuile_scene_t nothing;
+
+static void open_stream(board_t *board, tuile_t *renderer, const sim_bus_config_t *config, uint8_t buffers) {
+    board_open(board, config);
+    memset(renderer, 0, sizeof *renderer);
+    renderer->config = (tuile_config_t){.width = 240, .height = 320, .format = TUILE_RGB565_BE, .buffers = buffers};
+    renderer->bus = &board->bus;
+}
+
+static void test_stream_frame(void **state) {
+    static tuile_t renderer;
+
+    (void)state;
+    for (uint8_t buffers = 1; buffers <= 2; buffers++) {
+        board_t board;
+        tuile_stats_t stats;
+        open_stream(&board, &renderer, NULL, buffers);
+        assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+        for (unsigned frame = 1; frame <= 2; frame++) {
+            assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, frame == 1 ? &stats : NULL), 0);
+            assert_int_equal(renderer.ended, frame);
+        }
+        assert_int_equal(stats.tiles, 10);
+        board_check_clean(&board);
+        board_check_picture(&board, 0, TUILE_WIRE_RGB565);
+        board_close(&board);
+    }
+}
+
+/* The simulator must show what a renderer does that says it has two buffers and has one: else the loop's overlap is not tested. */
+static void test_stream_overlaps_with_two_buffers_only(void **state) {
+    static tuile_t renderer;
+    board_t board;
+
+    (void)state;
+    open_stream(&board, &renderer, NULL, 2);
+    renderer.config.buffers = 3; /* taken for two or more by the loop, for one by the renderer above */
+    assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), 0);
+    /* every tile but the last went out with the colours of the one after it */
+    for (uint32_t x = 0; x < 240; x++) {
+        uint32_t c = board_colour(240, x, 32);
+        assert_int_equal(sim_dcs_memory(board.chip, x, 0), (c & ~0x1001u) | (c >> 5 & 0x1000) | (c >> 5 & 1));
+    }
+    board_close(&board);
+}
+
+static void test_stream_refuses_a_mismatch(void **state) {
+    static tuile_t renderer;
+    board_t board;
+    tuile_stats_t stats = {.tiles = 99};
+
+    (void)state;
+    open_stream(&board, &renderer, NULL, 2);
+    assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+    renderer.config.width = 239;
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, &stats), TUILE_ERROR_ARGUMENT);
+    renderer.config.width = 240;
+    renderer.config.format = TUILE_RGB565_LE;
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, &stats), TUILE_ERROR_ARGUMENT);
+    renderer.config.format = TUILE_RGB565_BE;
+    assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB666), 0);
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, &stats), TUILE_ERROR_ARGUMENT);
+    assert_int_equal(renderer.begun, 0);
+    assert_int_equal(stats.tiles, 0);
+    board_close(&board);
+}
+
+static void test_stream_renderer_errors(void **state) {
+    static tuile_t renderer;
+    board_t board;
+    tuile_stats_t stats;
+
+    (void)state;
+    open_stream(&board, &renderer, NULL, 2);
+    assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+    renderer.begin_error = TUILE_ERROR_CAMERA;
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, &stats), TUILE_ERROR_CAMERA);
+    assert_int_equal(renderer.ended, 0);
+    renderer.begin_error = 0;
+    renderer.next_error = TUILE_ERROR_RANGE;
+    for (renderer.fail_at = 0; renderer.fail_at <= 10; renderer.fail_at++) {
+        renderer.begun = renderer.ended = 0;
+        assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, &stats), TUILE_ERROR_RANGE);
+        assert_int_equal(renderer.begun, 1);
+        assert_int_equal(renderer.ended, 1);
+        assert_int_equal(stats.tiles, renderer.fail_at);
+        assert_int_equal(board.display.error, 0);
+        assert_true(board.display.refresh); /* never presented */
+    }
+    renderer.next_error = 0;
+    renderer.end_error = TUILE_ERROR_SEQUENCE;
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, &stats), TUILE_ERROR_SEQUENCE);
+    renderer.end_error = 0;
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, &stats), 0);
+    board_check_clean(&board);
+    board_check_picture(&board, 0, TUILE_WIRE_RGB565);
+    board_close(&board);
+}
+
+static void test_stream_display_faults(void **state) {
+    static tuile_t renderer;
+
+    (void)state;
+    /* 21 transfers of the start, 10 tiles of 4 */
+    for (uint64_t transfer = 22; transfer <= 61; transfer++) {
+        board_t board;
+        tuile_stats_t stats;
+        open_stream(&board, &renderer, &(sim_bus_config_t){.fail_transfer = transfer, .fail_parts = 1}, 2);
+        assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+        assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, &stats), TUILE_HAL_IO);
+        assert_int_equal(renderer.begun, 1);
+        assert_int_equal(renderer.ended, 1);
+        assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, &stats), TUILE_HAL_IO);
+        assert_int_equal(renderer.begun, 1); /* nothing is drawn for a display that is out of order */
+        assert_int_equal(tuile_display_resume(&board.display), 0);
+        assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, &stats), 0);
+        board_check_clean(&board);
+        board_check_picture(&board, 0, TUILE_WIRE_RGB565);
+        board_close(&board);
+    }
+}
+
+/* A fault of the last tile's transfer must not hide behind a renderer's error at the tile after it, nor get lost. */
+static void test_stream_both_fail(void **state) {
+    static tuile_t renderer;
+    board_t board;
+
+    (void)state;
+    open_stream(&board, &renderer, &(sim_bus_config_t){.fail_transfer = 25}, 2); /* the data of tile 0 */
+    assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+    renderer.next_error = TUILE_ERROR_RANGE;
+    renderer.fail_at = 1;
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), TUILE_ERROR_RANGE);
+    assert_int_equal(renderer.ended, 1);
+    assert_int_equal(board.display.error, TUILE_HAL_IO);
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), TUILE_HAL_IO);
+    board_close(&board);
+}
+
+static void test_error_texts(void **state) {
+    (void)state;
+    for (int error = TUILE_HAL_GONE; error <= TUILE_HAL_ARGUMENT; error++) {
+        assert_non_null(tuile_hal_error_text(error));
+        assert_string_not_equal(tuile_hal_error_text(error), tuile_hal_error_text(-1000));
+        assert_ptr_equal(stream_error_text_under_test(error), tuile_hal_error_text(error));
+        for (int other = TUILE_HAL_GONE; other < error; other++) {
+            assert_string_not_equal(tuile_hal_error_text(error), tuile_hal_error_text(other));
+        }
+    }
+    assert_string_equal(stream_error_text_under_test(TUILE_ERROR_MEMORY), "renderer");
+    assert_string_equal(tuile_hal_error_text(0), "no error");
+}
+
+int main(void) {
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_fault_at_every_transfer),
+        cmocka_unit_test(test_gone_at_every_transfer),
+        cmocka_unit_test(test_buffer_in_flight_is_not_ours),
+        cmocka_unit_test(test_time_on_the_wire),
+        cmocka_unit_test(test_real_clock_differs_from_the_one_asked_for),
+        cmocka_unit_test(test_work_overlaps_the_wire),
+        cmocka_unit_test(test_stream_frame),
+        cmocka_unit_test(test_stream_overlaps_with_two_buffers_only),
+        cmocka_unit_test(test_stream_refuses_a_mismatch),
+        cmocka_unit_test(test_stream_renderer_errors),
+        cmocka_unit_test(test_stream_display_faults),
+        cmocka_unit_test(test_stream_both_fail),
+        cmocka_unit_test(test_error_texts),
+    };
+    return cmocka_run_group_tests_name("stream", tests, NULL, NULL);
+}
