@@ -186,7 +186,7 @@ static int parse(render_t *r, int count, char **arguments) {
         } else if (strcmp(argument, "--up") == 0) {
             (void)options_numbers(&options, v->up, 3, -far, far);
         } else if (strcmp(argument, "--fov") == 0) {
-            v->has_fov = options_number(&options, &v->fov, 0.5, 175.0);
+            (void)options_number(&options, &v->fov, 0.5, 175.0);
         } else if (strcmp(argument, "--near") == 0) {
             v->has_near = options_number(&options, &v->near, -far, far);
         } else if (strcmp(argument, "--far") == 0) {

@@ -2,16 +2,14 @@
 
 #include "picture.h"
 
+#include "output.h"
+
 #include <errno.h>
-#include <fcntl.h>
-#include <limits.h>
 #include <png.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 int sim_picture_create(sim_picture_t *out, uint32_t width, uint32_t height, sim_error_t *error) {
     *out = (sim_picture_t){0};
@@ -54,81 +52,24 @@ static int write_png(const sim_picture_t *picture, FILE *file, char *why, size_t
     return good ? 0 : -1;
 }
 
-/* Writes and closes; a disk that is full may say so only at the latter. */
-static int fill(const sim_picture_t *picture, FILE *file, const char *path, sim_error_t *error) {
-    char why[80] = "";
-    int result, reason;
-
-    errno = 0;
-    result = ends_with(path, ".ppm") ? write_ppm(picture, file) : write_png(picture, file, why, sizeof why);
-    reason = errno;
-    if (fclose(file) != 0 && result == 0) {
-        result = -1;
-        reason = errno;
-    }
-    if (result == 0) { return 0; }
-    /* The system's reason is the better one; the library knows only that a write failed. */
-    if (reason == 0 && why[0]) { return sim_fail(error, "%s: cannot write the picture: %s", path, why); }
-    return sim_fail(error, "%s: cannot write the picture: %s", path, strerror(reason ? reason : EIO));
-}
-
-/* A file beside path that did not exist before, with the permissions that a new file gets here. temporary: PATH_MAX bytes. */
-static FILE *open_beside(const char *path, char *temporary) {
-    for (unsigned attempt = 0; attempt < 1000; attempt++) {
-        int length = snprintf(temporary, PATH_MAX, "%s.%ld-%u.part", path, (long)getpid(), attempt);
-        int descriptor;
-        FILE *file;
-
-        if (length < 0 || length >= PATH_MAX) {
-            errno = ENAMETOOLONG;
-            return NULL;
-        }
-        descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor < 0 && errno == EEXIST) { continue; }
-        if (descriptor < 0) { return NULL; }
-        file = fdopen(descriptor, "wb");
-        if (!file) {
-            int reason = errno;
-            close(descriptor);
-            unlink(temporary);
-            errno = reason;
-        }
-        return file;
-    }
-    return NULL;
-}
-
 int sim_picture_write(const sim_picture_t *picture, const char *path, sim_error_t *error) {
-    char resolved[PATH_MAX], temporary[PATH_MAX];
-    const char *target = path;
-    struct stat status;
-    FILE *file;
+    char why[80] = "";
+    output_t output;
 
     if (!ends_with(path, ".ppm") && !ends_with(path, ".png")) {
         return sim_fail(error, "%s: cannot tell the kind of picture: end the name in .png or .ppm", path);
     }
     if (!picture->rgb) { return sim_fail(error, "%s: the picture to write is empty", path); }
-    if (stat(path, &status) == 0) {
-        if (S_ISDIR(status.st_mode)) { return sim_fail(error, "%s: cannot write the picture: it is a folder", path); }
-        if (!S_ISREG(status.st_mode)) {
-            file = fopen(path, "wb");
-            return file ? fill(picture, file, path, error) : sim_fail(error, "%s: cannot open: %s", path, strerror(errno));
-        }
-        /* Through a symbolic link, lest the rename replace the link. */
-        if (realpath(path, resolved)) { target = resolved; }
+    if (output_open(&output, path, error)) { return -1; }
+    errno = 0;
+    if (ends_with(path, ".ppm") ? write_ppm(picture, output.file) : write_png(picture, output.file, why, sizeof why)) {
+        const int reason = errno;
+        output_discard(&output);
+        /* The system's reason is the better one; the library knows only that a write failed. */
+        if (reason == 0 && why[0]) { return sim_fail(error, "%s: cannot write: %s", path, why); }
+        return sim_fail(error, "%s: cannot write: %s", path, strerror(reason ? reason : EIO));
     }
-    file = open_beside(target, temporary);
-    if (!file) { return sim_fail(error, "%s: cannot create: %s", path, strerror(errno)); }
-    if (fill(picture, file, path, error)) {
-        unlink(temporary);
-        return -1;
-    }
-    if (rename(temporary, target) != 0) {
-        int reason = errno;
-        unlink(temporary);
-        return sim_fail(error, "%s: cannot put the picture in place: %s", path, strerror(reason));
-    }
-    return 0;
+    return output_close(&output, error);
 }
 
 /* ---- reading ----------------------------------------------------------------------------------------------- */

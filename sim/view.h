@@ -9,7 +9,7 @@
 
 /* In model units and degrees. A `has_` that is false asks for a default that frames the model. */
 typedef struct view_options {
-    bool has_eye, has_at, has_fov, has_near, has_far, has_light, has_ortho, has_centre, has_spin;
+    bool has_eye, has_at, has_near, has_far, has_light, has_ortho, has_centre, has_spin;
     double eye[3], at[3], up[3];
     double fov; /* full vertical angle, degrees */
     double near, far;

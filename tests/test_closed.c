@@ -99,7 +99,6 @@ static void a_ball_cut_by_the_near_plane_has_no_holes(void **state) {
         options.eye[1] = 0.2 * sin(0.9 * frame);
         options.eye[2] = away * sin(0.37 * frame);
         options.near = 0.35;
-        options.has_fov = true;
         options.fov = 90;
         stage_aim(&stage, &options, 120, 160);
         stage.view.instance.two_sided = true;
@@ -127,7 +126,7 @@ static void from_the_inside_of_a_closed_surface_no_background_is_seen(void **sta
         for (unsigned frame = 0; frame < frames; frame++) {
             view_options_t options = VIEW_OPTIONS_DEFAULT;
             const double angle = 0.61 * frame;
-            options.has_eye = options.has_at = options.has_near = options.has_fov = true;
+            options.has_eye = options.has_at = options.has_near = true;
             options.eye[0] = cos(0.13 * frame) * (k == 0 ? 1.0 : 0.9);
             options.eye[2] = sin(0.13 * frame) * (k == 0 ? 1.0 : 0.9);
             options.at[0] = options.eye[0] + cos(angle);

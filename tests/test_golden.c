@@ -97,7 +97,6 @@ static void draw(unsigned m, unsigned shade, uint16_t *picture) {
     models[m].make(&mesh);
     model_compile(&compiled, &mesh);
     options.fov = models[m].fov;
-    options.has_fov = true;
     memcpy(options.background, (const uint8_t[3]){0x18, 0x20, 0x30}, 3);
     if (models[m].inside) {
         options.has_eye = options.has_at = options.has_near = true;

@@ -125,7 +125,7 @@ static void faces_cut_by_the_near_plane_need_no_more_than_the_least_block(void *
     model_room(&mesh);
     stage_open(&stage, &mesh, 120, 90);
     view_options_t inside = VIEW_OPTIONS_DEFAULT;
-    inside.has_eye = inside.has_at = inside.has_near = inside.has_fov = true;
+    inside.has_eye = inside.has_at = inside.has_near = true;
     inside.eye[2] = 3.5;
     inside.at[0] = 0.3;
     inside.near = 0.01;

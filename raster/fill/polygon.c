@@ -6,7 +6,7 @@ typedef struct point {
 
 static point_t ring_point(const polygon_ring_t *ring, uint32_t i) {
     if (ring->wide) { return (point_t){ring->wide[i][0], ring->wide[i][1]}; }
-    const vertex_t *vertex = &ring->vertices[ring->corners ? ring->corners[i] : i];
+    const vertex_t *vertex = polygon_ring_vertex(ring, i);
     return (point_t){vertex->x, vertex->y};
 }
 
@@ -188,19 +188,17 @@ void polygon_coverage(const polygon_ring_t *ring, int32_t width, int32_t height,
 /* Gradients from the largest triangle of the fan round the first corner: for a planar polygon any would do, and the largest is the
  * least disturbed by snapping. */
 static bool polygon_plane(polygon_t *polygon, const polygon_ring_t *ring, int32_t row) {
-    const vertex_t *vertices = ring->vertices;
-    const uint8_t *corners = ring->corners;
-    const vertex_t *v0 = &vertices[corners ? corners[0] : 0], *best1 = v0, *best2 = v0;
+    const vertex_t *v0 = polygon_ring_vertex(ring, 0), *best1 = v0, *best2 = v0;
     int64_t best = 0;
     uint32_t low = UINT32_MAX, high = 0;
 
     for (uint32_t i = 0; i < ring->count; i++) {
-        const vertex_t *v1 = &vertices[corners ? corners[i] : i];
+        const vertex_t *v1 = polygon_ring_vertex(ring, i);
         const uint32_t depth = v1->depth_light >> 8;
         low = depth < low ? depth : low;
         high = depth > high ? depth : high;
         if (i == 0 || i + 1 == ring->count) { continue; }
-        const vertex_t *v2 = &vertices[corners ? corners[i + 1] : i + 1];
+        const vertex_t *v2 = polygon_ring_vertex(ring, i + 1);
         int64_t area = (int64_t)(v2->x - v0->x) * (v1->y - v0->y) - (int64_t)(v1->x - v0->x) * (v2->y - v0->y);
         area = area < 0 ? -area : area;
         if (area > best) {

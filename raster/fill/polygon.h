@@ -23,6 +23,11 @@ typedef struct polygon_ring {
     uint32_t count;
 } polygon_ring_t;
 
+/* Corner i of a ring of window vertices. */
+TUILE_INLINE const vertex_t *polygon_ring_vertex(const polygon_ring_t *ring, uint32_t i) {
+    return &ring->vertices[ring->corners ? ring->corners[i] : i];
+}
+
 typedef struct polygon_chain {
     edge_t edge;
     int32_t row_first, row_turn, row_end; /* rows of the chain; the row where the current side ends */

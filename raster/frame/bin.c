@@ -130,11 +130,10 @@ static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *b
                        uint32_t id) {
     int64_t area = 0;
     int32_t left = INT32_MAX, right = INT32_MIN, top = INT32_MAX, bottom = INT32_MIN;
-    const vertex_t *v0 = &ring->vertices[ring->corners ? ring->corners[0] : 0];
+    const vertex_t *v0 = polygon_ring_vertex(ring, 0);
     for (uint32_t i = 0; i < ring->count; i++) {
         const uint32_t j = i + 1 == ring->count ? 0 : i + 1;
-        const vertex_t *a = &ring->vertices[ring->corners ? ring->corners[i] : i],
-                       *b = &ring->vertices[ring->corners ? ring->corners[j] : j];
+        const vertex_t *a = polygon_ring_vertex(ring, i), *b = polygon_ring_vertex(ring, j);
         area += (int64_t)(b->x - v0->x) * (a->y - v0->y) - (int64_t)(a->x - v0->x) * (b->y - v0->y);
         left = a->x < left ? a->x : left;
         right = a->x > right ? a->x : right;
@@ -343,14 +342,7 @@ int bin_pass(tuile_t *t) {
         const int error = transform_make(&t->transform, scene, t->instance, t->config.width, t->config.height);
         if (error) { return error; }
         transform_region(&t->transform, &t->region);
-        t->material_base = 0;
-        for (unsigned j = 0; j < i && scene->instances[j].model != model; j++) {
-            unsigned earlier = 0;
-            while (scene->instances[earlier].model != scene->instances[j].model) {
-                earlier++;
-            }
-            if (earlier == j) { t->material_base = (uint16_t)(t->material_base + scene->instances[j].model->material_count); }
-        }
+        t->material_base = (uint16_t)frame_material_base(scene, i);
         for (uint32_t k = 0; k < model->cluster_count; k++) {
             const int result = bin_cluster(t, model->clusters + (size_t)k * MODEL_CLUSTER_BYTES);
             if (result != BIN_OK) { return result; }

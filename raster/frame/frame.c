@@ -73,12 +73,11 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     t->stats.least_bytes = (uint32_t)least;
     t->tile_columns = (uint16_t)((c.width + c.tile_width - 1) / c.tile_width);
     t->tile_rows = (uint16_t)((c.height + c.tile_height - 1) / c.tile_height);
-    t->tile_bytes = (uint32_t)(TUILE_FORMAT_BYTES(c.format) * pixels);
     t->depth = (uint16_t *)(void *)at;
     at += TUILE_ALIGN64(2u * pixels);
     for (unsigned b = 0; b < c.buffers; b++) {
         t->colours[b] = at;
-        at += TUILE_ALIGN64((size_t)t->tile_bytes);
+        at += TUILE_ALIGN64((size_t)TUILE_FORMAT_BYTES(c.format) * pixels);
     }
     t->buckets = (uint16_t *)(void *)at;
     at += TUILE_ALIGN8(2u * (size_t)t->tile_rows);
@@ -104,15 +103,11 @@ static int check_scene(const tuile_t *t, const tuile_scene_t *scene, uint32_t *m
     }
     for (unsigned i = 0; i < scene->instance_count; i++) {
         const tuile_model_t *model = scene->instances[i].model;
-        unsigned earlier = 0;
         if (model == NULL) { return TUILE_ERROR_ARGUMENT; }
         if (model->cluster_vertices_max > t->config.cluster_vertices || model->corners_max > t->config.corners) {
             return TUILE_ERROR_LIMITS;
         }
-        while (scene->instances[earlier].model != model) {
-            earlier++;
-        }
-        if (earlier == i) { *materials += model->material_count; }
+        if (frame_first_use(scene, i)) { *materials += model->material_count; }
         *faces += model->face_count;
     }
     return *materials > 256 ? TUILE_ERROR_ARGUMENT : TUILE_OK;
@@ -131,7 +126,6 @@ int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     t->stats.least_bytes = least;
     t->stats.faces = faces;
     t->scene = scene;
-    t->material_count = (uint16_t)materials;
     t->background = resolve_colour(t->config.format, scene->background[0], scene->background[1], scene->background[2]);
 
     /* One ramp is always there; the others may take an eighth of the arena. */

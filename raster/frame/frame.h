@@ -68,14 +68,13 @@ typedef struct tuile {
     uint8_t *colours[2];
     uint16_t *buckets; /* one per tile row of the window */
     uint8_t *arena, *arena_end;
-    uint32_t tile_bytes; /* of one colour buffer */
     uint16_t tile_columns, tile_rows;
     uint8_t record_bytes;
     uint8_t next_buffer;
     /* Ramps, at the start of the arena: ramp m % ramp_count holds material ramp_tags[m % ramp_count]. */
     uint16_t *ramps;
     int16_t *ramp_tags;
-    uint16_t ramp_count, material_count;
+    uint16_t ramp_count;
     uint16_t background;
     /* The pass. */
     vertex_t *vertices;
@@ -136,6 +135,12 @@ uint16_t resolve_colour(uint8_t format, uint8_t red, uint8_t green, uint8_t blue
 uint16_t resolve_lit(uint8_t format, const uint8_t colour[3], uint32_t light);
 
 /* ---- ramp.c ---- */
+
+/* Materials are counted through the models of the scene, each model once: is this the first instance of its model? */
+bool frame_first_use(const tuile_scene_t *scene, unsigned instance);
+
+/* The number of the first material of an instance's model. */
+uint32_t frame_material_base(const tuile_scene_t *scene, unsigned instance);
 
 /* The colour of a material, counted through the models of the scene. */
 const uint8_t *frame_material(const tuile_t *t, uint32_t material);

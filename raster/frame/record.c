@@ -17,7 +17,7 @@ void frame_record_rows(const tuile_t *t, const record_t *record, int32_t *first,
         top = INT32_MAX;
         bottom = INT32_MIN;
         for (uint32_t i = 0; i < ring.count; i++) {
-            const int32_t y = ring.vertices[ring.corners ? ring.corners[i] : i].y;
+            const int32_t y = polygon_ring_vertex(&ring, i)->y;
             top = y < top ? y : top;
             bottom = y > bottom ? y : bottom;
         }

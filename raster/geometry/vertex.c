@@ -55,6 +55,14 @@ TUILE_INLINE int32_t coarse(const transform_row_t *row, int32_t x, int32_t y, in
     return (int32_t)(((int64_t)row->m[0] * x + (int64_t)row->m[1] * y + (int64_t)row->m[2] * z + row->t) >> 16);
 }
 
+/* Light at the next of the normals, if there are any. */
+TUILE_INLINE uint8_t next_light(const transform_t *transform, const int8_t **normal) {
+    const int8_t *n = *normal;
+    if (n == NULL) { return LIGHT_MIN; }
+    *normal = n + 3;
+    return vertex_light(transform, n[0], n[1], n[2]);
+}
+
 static bool perspective(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count, vertex_t *out) {
     const int32_t first = transform->w_fast, last = (int32_t)(transform->w_high >> 16) - 2;
     const uint32_t range = last > first ? (uint32_t)(last - first) : 0; /* strictly inside far plane, too */
@@ -63,11 +71,7 @@ static bool perspective(const transform_t *transform, const int16_t *q, const in
     bool any_outside = false;
 
     for (; count; count--, q += 3, out++) {
-        uint8_t light = LIGHT_MIN;
-        if (normal) {
-            light = vertex_light(transform, normal[0], normal[1], normal[2]);
-            normal += 3;
-        }
+        const uint8_t light = next_light(transform, &normal);
         const int32_t w = coarse(&transform->w, q[0], q[1], q[2]);
         if (TUILE_UNLIKELY((uint32_t)w - (uint32_t)first >= range)) {
             *out = vertex_from_fine(transform, q, light);
@@ -95,11 +99,7 @@ static bool perspective(const transform_t *transform, const int16_t *q, const in
 static bool orthographic(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count, vertex_t *out) {
     bool any_outside = false;
     for (; count; count--, q += 3, out++) {
-        uint8_t light = LIGHT_MIN;
-        if (normal) {
-            light = vertex_light(transform, normal[0], normal[1], normal[2]);
-            normal += 3;
-        }
+        const uint8_t light = next_light(transform, &normal);
         *out = vertex_from_fine(transform, q, light);
         any_outside |= out->x == VERTEX_OUTSIDE;
     }

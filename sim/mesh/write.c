@@ -1,15 +1,10 @@
-/* Model files, whole or not at all: the bytes go to a new file beside the old one, which takes its place only when every one of
- * them is known to be on the disk. What is no ordinary file (a pipe, a device) has no place to be taken and is written to
- * directly.
- */
+/* Model files: the bytes as they are, or as a C source. */
+#include "../output.h"
 #include "stages.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define NAME_MAX_CHARS 63 /* what C promises to tell apart */
 
@@ -79,55 +74,6 @@ static int put_source(FILE *file, const uint8_t *bytes, size_t size_bytes, const
     return fprintf(file, "\n};\n") < 0 ? (errno ? errno : EIO) : 0;
 }
 
-/* Writes and closes. */
-static int put_all(int descriptor, const uint8_t *bytes, size_t size_bytes, const char *name, bool sync) {
-    FILE *file = fdopen(descriptor, "wb");
-    if (!file) {
-        int trouble = errno;
-        (void)close(descriptor);
-        return trouble;
-    }
-    errno = 0;
-    int trouble = 0;
-    if (name) {
-        trouble = put_source(file, bytes, size_bytes, name);
-    } else if (fwrite(bytes, 1, size_bytes, file) != size_bytes) {
-        trouble = errno ? errno : EIO;
-    }
-    if (!trouble && (fflush(file) || (sync && fsync(descriptor)))) { trouble = errno ? errno : EIO; }
-    if (fclose(file) && !trouble) { trouble = errno ? errno : EIO; }
-    return trouble;
-}
-
-/* ---- taking the place of a file ------------------------------------------------------------------------------- */
-
-static int fail(const char *path, const char *what, int trouble, sim_error_t *error) {
-    return sim_fail(error, "%s: %s: %s; nothing was written", path, what, strerror(trouble));
-}
-
-static int replace(const char *path, const uint8_t *bytes, size_t size_bytes, const char *name, mode_t mode, sim_error_t *error) {
-    size_t length = strlen(path) + sizeof ".XXXXXX";
-    char *beside = malloc(length);
-    if (!beside) { return sim_fail(error, "%s: out of memory; nothing was written", path); }
-    (void)snprintf(beside, length, "%s.XXXXXX", path);
-    int descriptor = mkstemp(beside);
-    if (descriptor < 0) {
-        int trouble = errno;
-        free(beside);
-        return fail(path, "no file can be made in its folder", trouble, error);
-    }
-    int trouble = fchmod(descriptor, mode) ? errno : 0;
-    if (trouble) {
-        (void)close(descriptor);
-    } else {
-        trouble = put_all(descriptor, bytes, size_bytes, name, true);
-    }
-    if (!trouble && rename(beside, path)) { trouble = errno; }
-    if (trouble) { (void)unlink(beside); }
-    free(beside);
-    return trouble ? fail(path, "writing failed", trouble, error) : 0;
-}
-
 int mesh_write(const uint8_t *bytes, size_t size_bytes, const char *path, const char *name, sim_error_t *error) {
     char made_up[NAME_MAX_CHARS + 1];
     bool source = !strcmp(extension(path), ".c");
@@ -145,19 +91,13 @@ int mesh_write(const uint8_t *bytes, size_t size_bytes, const char *path, const 
         return sim_fail(error, "\"%.80s\" is no name for an object in C; take a letter, then letters, digits and _, at most %d",
                         name, NAME_MAX_CHARS);
     }
-    mode_t mask = umask(0);
-    (void)umask(mask);
-    mode_t mode = 0666 & ~mask;
-    struct stat status;
-    bool there = !stat(path, &status);
-    if (there && !S_ISREG(status.st_mode)) {
-        if (S_ISDIR(status.st_mode)) { return sim_fail(error, "%s: is a folder; name a file in it", path); }
-        int descriptor = open(path, O_WRONLY | O_CLOEXEC);
-        int trouble = descriptor < 0 ? errno : put_all(descriptor, bytes, size_bytes, source ? name : NULL, false);
-        return trouble ? sim_fail(error, "%s: writing failed: %s", path, strerror(trouble)) : 0;
+    output_t output;
+    if (output_open(&output, path, error)) { return -1; }
+    errno = 0;
+    if (source ? put_source(output.file, bytes, size_bytes, name) != 0 : fwrite(bytes, 1, size_bytes, output.file) != size_bytes) {
+        const int reason = errno ? errno : EIO;
+        output_discard(&output);
+        return sim_fail(error, "%s: cannot write: %s", path, strerror(reason));
     }
-    char *real = there ? realpath(path, NULL) : NULL; /* what a link names is replaced, not the link */
-    int result = replace(real ? real : path, bytes, size_bytes, source ? name : NULL, there ? status.st_mode & 0777 : mode, error);
-    free(real);
-    return result;
+    return output_close(&output, error);
 }
