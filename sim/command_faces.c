@@ -1,6 +1,7 @@
 /* tuile faces: the visible face of each pixel of a text scene, drawn by the renderer itself. */
 #include "../raster/tuile.h"
 #include "commands.h"
+#include "ids.h"
 #include "options.h"
 #include "scene_text.h"
 
@@ -34,7 +35,6 @@ static int draw(faces_t *faces, const tuile_config_t *wanted, size_t memory_byte
     mesh_report_t report;
     size_t size_bytes, least;
     tuile_t *renderer;
-    tuile_tile_t tile;
     int result;
 
     if (scene_text_mesh(&faces->scene, &faces->mesh, &quantisation, &error) != 0) { return command_fail("%s", error.text); }
@@ -67,14 +67,7 @@ static int draw(faces_t *faces, const tuile_config_t *wanted, size_t memory_byte
     if (result == TUILE_ERROR_MEMORY) {
         return command_fail("--memory: %zu bytes are too few, this scene wants %zu", memory_bytes, least);
     }
-    if (result == 0) { result = tuile_begin(renderer, &scene); }
-    while (result == 0 && (result = tuile_next(renderer, &tile)) == 1) {
-        for (unsigned y = 0; y < tile.height; y++) {
-            memcpy(faces->ids + (size_t)(tile.y + y) * config.width + tile.x, tile.bytes + 4u * (size_t)y * tile.width,
-                   4u * (size_t)tile.width);
-        }
-        result = 0;
-    }
+    if (result == 0) { result = ids_draw(renderer, &scene, faces->ids); }
     if (result < 0) { return command_fail("%s", tuile_error_text(result)); }
     for (unsigned y = 0; y < config.height; y++) {
         for (unsigned x = 0; x < config.width; x++) {

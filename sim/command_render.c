@@ -4,6 +4,7 @@
 #include "bus.h"
 #include "chips/ili9341.h"
 #include "commands.h"
+#include "ids.h"
 #include "mesh/mesh.h"
 #include "options.h"
 #include "output.h"
@@ -304,7 +305,6 @@ static int write_ids(render_t *r, unsigned frame) {
     output_t out;
     void *block = NULL;
     tuile_t *renderer = NULL;
-    tuile_tile_t tile;
     tuile_config_t config = r->config;
     size_t memory_bytes = 0;
     const size_t width = config.width, pixels = width * config.height;
@@ -315,13 +315,7 @@ static int write_ids(render_t *r, unsigned frame) {
     uint32_t *ids = calloc(pixels, sizeof *ids);
     if (!ids) { return command_fail("out of memory"); }
     int code = open_renderer(&renderer, &block, &config, &r->model, &memory_bytes);
-    int result = code ? 0 : tuile_begin(renderer, &r->view.scene);
-    while (code == 0 && result == 0 && (result = tuile_next(renderer, &tile)) == 1) {
-        for (unsigned y = 0; y < tile.height; y++) {
-            memcpy(ids + (size_t)(tile.y + y) * width + tile.x, tile.bytes + 4u * (size_t)y * tile.width, 4u * (size_t)tile.width);
-        }
-        result = 0;
-    }
+    const int result = code ? 0 : ids_draw(renderer, &r->view.scene, ids);
     if (result < 0) { code = command_fail("--ids: %s", tuile_error_text(result)); }
     if (code == 0 && output_open(&out, name, &r->error) == 0) {
         for (size_t i = 0; i < pixels; i++) {
