@@ -266,7 +266,7 @@ static int bin_polygons(tuile_t *t, const cluster_t *cluster, unsigned count) {
             outside |= v->x == VERTEX_OUTSIDE;
             lit_alike &= (uint8_t)v->depth_light == (uint8_t)cluster->vertices[corner[0]].depth_light;
         }
-        face += 3 + corners;
+        face += MODEL_POLYGON_BYTES(corners);
         /* Gouraud: light is affine on a triangle only, so a smooth convex polygon is cut into a fan. */
         const bool fan = normal == NULL && !lit_alike && flags & MODEL_FACE_CONVEX;
         const unsigned parts = fan ? corners - 2 : 1;

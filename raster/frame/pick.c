@@ -69,7 +69,7 @@ static unsigned face_corners(const tuile_model_t *model, uint32_t face, const ui
         return 3;
     }
     for (; skip; skip--) {
-        at += 3 + at[0];
+        at += MODEL_POLYGON_BYTES(at[0]);
     }
     *corners = at + 3;
     return at[0];

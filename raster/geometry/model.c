@@ -44,11 +44,14 @@ static uint32_t check_faces(const tuile_model_t *model, const uint8_t *cluster, 
             material = face[3];
             at += 4;
         } else {
-            if (left < 3 || face[0] < 3 || left - 3 < face[0]) { return 0; }
+            if (left < MODEL_POLYGON_BYTES(3) || face[0] < 3 || left < MODEL_POLYGON_BYTES(face[0]) ||
+                face[3 + face[0]] != face[0]) {
+                return 0;
+            }
             corners = face[0];
             material = face[2];
             corner = face + 3;
-            at += 3 + corners;
+            at += MODEL_POLYGON_BYTES(corners);
         }
         if (material >= model->material_count || corners > model->corners_max) { return 0; }
         for (unsigned c = 0; c < corners; c++) {

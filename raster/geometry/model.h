@@ -13,8 +13,8 @@
 #include "../tuile.h"
 
 #define MODEL_MAGIC 0x4c495554u /* "TUIL" */
-#define MODEL_VERSION 1u
-#define MODEL_HEADER_BYTES 96u
+#define MODEL_VERSION 2u
+#define MODEL_HEADER_BYTES 108u
 
 /* Byte offsets in the header. */
 enum {
@@ -42,7 +42,11 @@ enum {
     MODEL_AT_FACE_BYTES_SIZE = 80, /* u32, size of that section */
     MODEL_AT_FACE_NORMALS = 84,
     MODEL_AT_MATERIAL_TABLE = 88,
-    MODEL_AT_SOURCE = 92, /* 0 when there is no source map */
+    MODEL_AT_SOURCE = 92,      /* 0 when there is no source map */
+    MODEL_AT_TREE = 96,        /* 0 when there is no display tree */
+    MODEL_AT_TREE_WORDS = 100, /* u32, size of that section in 32-bit words */
+    MODEL_AT_TREE_DEPTH = 104, /* u16, nodes on the longest path; 0 without a tree */
+    MODEL_AT_ZERO = 106,       /* u16, 0 */
 };
 
 enum {
@@ -56,8 +60,9 @@ enum {
  * source       faces x u16 or u32: the importer's number of each face, 0-based; several may share one (a split polygon)
  * face bytes   per cluster, at its face_bytes offset:
  *              MODEL_CLUSTER_TRIANGLES: per face u8 a, b, c, material, 4-byte aligned
- *              MODEL_CLUSTER_POLYGONS:  per face u8 corners n, u8 flags, u8 material, n x u8 corner
+ *              MODEL_CLUSTER_POLYGONS:  per face u8 corners n, u8 flags, u8 material, n x u8 corner, u8 n again
  *              a corner is an index into the cluster's vertices; front faces are counter-clockwise.
+ *              n stands at both ends so that the display tree can go through them backwards. Bytes between clusters are 0.
  * clusters     28 bytes each, as below. Their faces and vertices follow on one another: cluster k's first face is the sum of the
  *              face counts before it, and so for vertices.
  */
@@ -77,9 +82,36 @@ enum {
     CLUSTER_AT_KIND = 27,         /* u8 */
 };
 enum { MODEL_CLUSTER_TRIANGLES = 0, MODEL_CLUSTER_POLYGONS = 1 };
+#define MODEL_POLYGON_BYTES(corners) (4u + (corners))
 enum { MODEL_FACE_CONVEX = 1 }; /* strictly: may be cut into a fan from its first corner */
 
 #define MODEL_TRIANGLE_CLUSTER_VERTICES 128u /* a cluster of triangles has at most so many vertices */
+
+/* The display tree (S10): nodes made of little-endian 32-bit words, the root first, in preorder: a node's first child follows
+ * directly behind it, the second one behind all nodes below the first. The first word of a node has bit 0 set; all others are the
+ * value shifted left by one, so that they have not.
+ *
+ * Word 0      TREE_START | kind << 1 | TREE_FIRST if there is a first child | TREE_SECOND if it is a second child itself
+ *             | value << 8: TREE_CONVEX the cluster of its first face, TREE_PLANE 0
+ * TREE_CONVEX 4 words: word 0; first face; number of faces whose normals lead into the set (I); number of the others (O).
+ *             Faces first ... first + I - 1 look inwards, the O behind them outwards; both may lie in several clusters.
+ *             Its first child is inside. I + O >= 1; nodes name all faces of the model, each once, in order.
+ *             To be drawn: the faces whose inside is seen, then the child, then the faces whose outside is seen.
+ * TREE_PLANE  7 words: word 0; second child, in words from the start of the section (0 = none); n[3], |n[i]| < 2^30; bits 0 ... 29
+ *             of d; the rest of d, signed; |d| < 2^48. n . q + d tells the side of a position q in steps: the first child is on the
+ *             plus side, the second one on the minus side. There is one child at least.
+ * Before each second child stands one word: the place of its parent, in words from the start of the section. With it a tree can be
+ * checked in one pass without any memory.
+ */
+enum { TREE_CONVEX = 1, TREE_PLANE = 2 };
+#define TREE_START 1u
+#define TREE_KIND(word) ((word) >> 1 & 3u)
+#define TREE_FIRST 8u
+#define TREE_SECOND 16u
+#define TREE_VALUE(word) ((word) >> 8)
+#define TREE_CONVEX_WORDS 4u
+#define TREE_PLANE_WORDS 7u
+#define TREE_CLUSTERS_MAX (1u << 24)
 
 static inline uint16_t model_u16(const uint8_t *p) { return (uint16_t)(p[0] | p[1] << 8); }
 static inline int16_t model_i16(const uint8_t *p) { return (int16_t)model_u16(p); }

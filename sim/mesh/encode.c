@@ -56,6 +56,7 @@ static void encode_face(encoder_t *e, const solid_face_t *face, bool triangles) 
         for (uint32_t i = 0; i < face->count; i++) {
             put(e, &e->faces, e->local[corners[i]], 1);
         }
+        put(e, &e->faces, face->count, 1);
     }
     for (int k = 0; k < 3; k++) {
         put_signed(e, &e->face_normals, normal_byte(face->unit[k]), 1);

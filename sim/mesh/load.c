@@ -9,7 +9,7 @@ static size_t count_polygons(const tuile_model_t *model) {
         const uint8_t *cluster = model->clusters + (size_t)k * MODEL_CLUSTER_BYTES;
         const uint8_t *face = model->faces + model_u32(cluster + CLUSTER_AT_FACE_BYTES);
         unsigned faces = cluster[CLUSTER_AT_KIND] == MODEL_CLUSTER_POLYGONS ? model_u16(cluster + CLUSTER_AT_FACE_COUNT) : 0;
-        for (; faces > 0; faces--, face += 3 + face[0]) {
+        for (; faces > 0; faces--, face += MODEL_POLYGON_BYTES(face[0])) {
             polygons += face[0] > 3;
         }
     }

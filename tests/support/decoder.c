@@ -26,7 +26,7 @@ static decoder_model_t read_model(const uint8_t *b, size_t size_bytes) {
     assert_memory_equal(b, "TUIL", 4);
     assert_int_equal(decoder_u32(b + 4), size_bytes);
     assert_int_equal(decoder_u32(b + 8), crc_of(b + 12, size_bytes - 12));
-    assert_int_equal(decoder_u16(b + 12), 1);
+    assert_int_equal(decoder_u16(b + 12), 2);
     m.vertex_count = decoder_u32(b + 16);
     m.face_count = decoder_u32(b + 20);
     m.cluster_count = decoder_u32(b + 24);
@@ -69,7 +69,8 @@ static decoder_model_t read_model(const uint8_t *b, size_t size_bytes) {
                 to->convex = at[1] & MODEL_FACE_CONVEX;
                 to->material = at[2];
                 corner = at + 3;
-                at += 3 + to->corners;
+                assert_int_equal(at[3 + to->corners], to->corners);
+                at += 4 + to->corners;
             } else {
                 to->material = at[3];
                 at += 4;
