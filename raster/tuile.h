@@ -44,7 +44,8 @@ typedef enum tuile_error {
     TUILE_ERROR_CAMERA = -4,   /* degenerate: eye = at, up along the view, near <= 0, far <= near ... */
     TUILE_ERROR_RANGE = -5,    /* model, pose and camera together leave the number range */
     TUILE_ERROR_SEQUENCE = -6, /* tuile_next without tuile_begin, and the like */
-    TUILE_ERROR_LIMITS = -7,   /* a model exceeds the cluster_vertices or corners that the renderer was laid out for */
+    TUILE_ERROR_LIMITS = -7,   /* a model exceeds the cluster_vertices, corners or tree_depth that the renderer was laid out for */
+    TUILE_ERROR_TREE = -8,     /* TUILE_TREE, and a model has no display tree */
 } tuile_error_t;
 
 /* One line of English about an error code; never NULL. */
@@ -152,8 +153,13 @@ typedef enum tuile_format {
                            instances in order (of each, its model's face order) */
 } tuile_format_t;
 
+/* Hidden-surface methods. They show the same face at every pixel, but for pixels where two faces are within one step of depth. */
 typedef enum tuile_method {
-    TUILE_ZBUFFER = 0,
+    TUILE_ZBUFFER = 0,  /* 16 bits of depth per pixel of a tile; draws any scene in the least memory */
+    TUILE_SCANLINE = 1, /* depth of one line of a tile, and the faces that cross it */
+    TUILE_WARNOCK = 2,  /* no depth: windows divided until one face fills each */
+    TUILE_PAINTER = 3,  /* no depth: faces sorted back to front for each frame, and cut where they cross */
+    TUILE_TREE = 4,     /* no depth and no sort: the order stands in the models (`tuile mesh --tree`) */
 } tuile_method_t;
 
 typedef enum tuile_shade {
@@ -179,6 +185,7 @@ typedef struct tuile_config {
     uint8_t buffers;                  /* tiles in flight: 1 or 2; 0 = 2 */
     uint16_t cluster_vertices;        /* largest cluster of any model to be drawn (cluster_vertices_max), 0 = 255 */
     uint16_t corners;                 /* corners of the face with most (corners_max), up to 255, 0 = 4 */
+    uint16_t tree_depth;              /* deepest tree of any model to be drawn (tree_depth), TUILE_TREE only; 0 = 64 */
     uint16_t tile_first, tile_step;   /* draw tiles first, first + step, ... in row-major order; step 0 = 1 */
     uint16_t row_first, row_end;      /* draw only the tiles that start in rows [first, end); end 0 = height */
 } tuile_config_t;
@@ -208,6 +215,9 @@ typedef struct tuile tuile_t;
  * wanted_bytes (may be NULL) receives the least size for this configuration, whether or not the call succeeds.
  * TUILE_ERROR_MEMORY when size_bytes is less. */
 int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, size_t size_bytes, size_t *wanted_bytes);
+
+/* After TUILE_ERROR_MEMORY from tuile_begin or tuile_next: the size of a block that would have been enough there, in bytes. */
+size_t tuile_wanted(const tuile_t *renderer);
 
 /* The configuration in force, with every default filled in. */
 const tuile_config_t *tuile_config(const tuile_t *renderer);
@@ -248,10 +258,19 @@ typedef struct tuile_stats {
     uint32_t faces_resumed;        /* set up again because there was no room to carry their state */
     uint32_t passes;               /* over the model, failed attempts included */
     uint32_t tiles;
-    uint32_t tiles_immediate; /* drawn without bins, for lack of memory */
-    uint32_t size_bytes;      /* the block */
-    uint32_t least_bytes;     /* the least block for this configuration */
-    uint32_t peak_bytes;      /* the block that would have given the same passes */
+    uint32_t tiles_narrow;     /* that took a pass of their own, for lack of memory */
+    uint32_t active_max;       /* scan-line: most faces on one line of a tile */
+    uint32_t windows;          /* Warnock: windows looked at, */
+    uint32_t windows_depth;    /* the greatest number of divisions that led to one, */
+    uint32_t windows_pixels;   /* and how many were one pixel in the end and decided as such */
+    uint32_t compared;         /* painter: pairs of faces looked at, */
+    uint32_t moved;            /* faces moved before another, */
+    uint32_t splits;           /* and cut because they cross or overlap in a cycle */
+    uint32_t nodes;            /* tree: nodes visited */
+    uint32_t instances_sorted; /* tree: instances that no plane separates from one another, drawn by the painter's method */
+    uint32_t size_bytes;       /* the block */
+    uint32_t least_bytes;      /* the least block for this configuration */
+    uint32_t peak_bytes;       /* the block that would have given the same passes */
 } tuile_stats_t;
 
 /* Ends a frame, complete or not. stats may be NULL. */

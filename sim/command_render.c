@@ -379,10 +379,10 @@ static void report_frame(const render_t *r, unsigned frame, const char *hash) {
         s->faces_tested, s->faces_back, s->faces_degenerate, s->faces_outside, s->faces_clipped, s->faces_clipped_away,
         s->faces_binned, s->faces_setup, s->faces_resumed);
     (void)fprintf(f,
-                  "     \"passes\": %u, \"tiles\": %u, \"tiles_immediate\": %u, \"size_bytes\": %u, \"least_bytes\": %u, "
+                  "     \"passes\": %u, \"tiles\": %u, \"tiles_narrow\": %u, \"size_bytes\": %u, \"least_bytes\": %u, "
                   "\"peak_bytes\": %u,\n"
                   "     \"wire_bytes\": %llu, \"wire_ns\": %llu, \"fps_bus\": %.2f}",
-                  s->passes, s->tiles, s->tiles_immediate, s->size_bytes, s->least_bytes, s->peak_bytes,
+                  s->passes, s->tiles, s->tiles_narrow, s->size_bytes, s->least_bytes, s->peak_bytes,
                   (unsigned long long)r->wire_bytes, (unsigned long long)r->frame_ns,
                   r->frame_ns ? 1e9 / (double)r->frame_ns : 0.0);
 }

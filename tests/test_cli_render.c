@@ -297,7 +297,7 @@ static void the_report_is_json_with_every_figure_of_every_frame(void **state) {
                                          "faces_resumed",
                                          "passes",
                                          "tiles",
-                                         "tiles_immediate",
+                                         "tiles_narrow",
                                          "size_bytes",
                                          "least_bytes",
                                          "peak_bytes",

@@ -22,7 +22,7 @@ static void the_least_block_for_a_large_model_is_below_8_kilobytes_and_draws_it(
     assert_memory_equal(picture, expected, frame_bytes(&config));
     assert_int_equal(stats.size_bytes, least);
     assert_int_equal(stats.least_bytes, least);
-    assert_true(stats.tiles_immediate > 0);
+    assert_true(stats.tiles_narrow > 0);
     assert_int_equal(stats.tiles, 80);
     assert_int_equal(stats.faces, 5800);
     free(picture);
@@ -41,7 +41,7 @@ static void a_large_model_takes_one_pass_in_64_kilobytes(void **state) {
         config.shade = (uint8_t)shade;
         free(frame_draw(&stage.view.scene, &config, 65536, &stats));
         assert_int_equal(stats.passes, 1);
-        assert_int_equal(stats.tiles_immediate, 0);
+        assert_int_equal(stats.tiles_narrow, 0);
         assert_in_range(stats.peak_bytes, stats.least_bytes / 2, 65536);
     }
     stage_close(&stage);
@@ -87,7 +87,7 @@ static void forty_sizes_of_memory_and_five_of_tiles_give_one_picture(void **stat
                 free(picture);
                 if (k == 0) {
                     passes_least = stats.passes;
-                    assert_true(stats.tiles_immediate > 0);
+                    assert_true(stats.tiles_narrow > 0);
                 }
                 passes_most = stats.passes;
                 early += k < sizes / 2 ? stats.passes : 0;

@@ -187,7 +187,7 @@ void polygon_coverage(const polygon_ring_t *ring, int32_t width, int32_t height,
 
 /* Gradients from the largest triangle of the fan round the first corner: for a planar polygon any would do, and the largest is the
  * least disturbed by snapping. */
-static bool polygon_plane(polygon_t *polygon, const polygon_ring_t *ring, int32_t row) {
+bool polygon_plane(const polygon_ring_t *ring, depth_plane_t *plane) {
     const vertex_t *v0 = polygon_ring_vertex(ring, 0), *best1 = v0, *best2 = v0;
     int64_t best = 0;
     uint32_t low = UINT32_MAX, high = 0;
@@ -207,8 +207,8 @@ static bool polygon_plane(polygon_t *polygon, const polygon_ring_t *ring, int32_
             best2 = v2;
         }
     }
-    polygon->z_low = (low << 8) + 0x8000; /* with the rounding half */
-    polygon->z_high = (high << 8) + 0x8000;
+    plane->low = (low << 8) + 0x8000; /* with the rounding half */
+    plane->high = (high << 8) + 0x8000;
     if (best == 0) { return false; }
     const int32_t x1 = best1->x - v0->x, y1 = best1->y - v0->y, x2 = best2->x - v0->x, y2 = best2->y - v0->y;
     const int64_t area = (int64_t)x2 * y1 - (int64_t)x1 * y2;
@@ -216,21 +216,28 @@ static bool polygon_plane(polygon_t *polygon, const polygon_ring_t *ring, int32_
     const int32_t z2 = (int32_t)(best2->depth_light >> 8) - z0;
     const int64_t nx = (int64_t)z2 * y1 - (int64_t)z1 * y2, ny = (int64_t)z1 * x2 - (int64_t)z2 * x1; /* < 2^40 */
     const int64_t sign = area < 0 ? -1 : 1;
-    polygon->dzdx = fixed_floor_div64(fixed_shift_left64(sign * nx, 12), sign * area);
-    polygon->dzdy = fixed_floor_div64(fixed_shift_left64(sign * ny, 12), sign * area);
+    plane->dx = fixed_floor_div64(fixed_shift_left64(sign * nx, 12), sign * area);
+    plane->dy = fixed_floor_div64(fixed_shift_left64(sign * ny, 12), sign * area);
     /* A gradient above 2^17 steps a pixel means that the face is seen from its edge: the range decides, not the plane. */
     const int64_t steep = (int64_t)1 << 33;
-    polygon->dzdx = polygon->dzdx > steep ? steep : polygon->dzdx < -steep ? -steep : polygon->dzdx;
-    polygon->dzdy = polygon->dzdy > steep ? steep : polygon->dzdy < -steep ? -steep : polygon->dzdy;
-    polygon->z = ((int64_t)z0 << 8) + 0x8000 + ((polygon->dzdx * (8 - v0->x) + polygon->dzdy * (16 * row + 8 - v0->y)) >> 4);
+    plane->dx = plane->dx > steep ? steep : plane->dx < -steep ? -steep : plane->dx;
+    plane->dy = plane->dy > steep ? steep : plane->dy < -steep ? -steep : plane->dy;
+    plane->z = ((int64_t)z0 << 8) + 0x8000 + ((plane->dx * (8 - v0->x) + plane->dy * (8 - v0->y)) >> 4);
     return true;
 }
 
 bool polygon_start(polygon_t *polygon, const polygon_ring_t *ring, int32_t first_row) {
+    if (!polygon_paint_start(polygon, ring, first_row) || !polygon_plane(ring, &polygon->depth)) { return false; }
+    polygon->depth.z += polygon->depth.dy * polygon->row;
+    return true;
+}
+
+bool polygon_paint_start(polygon_t *polygon, const polygon_ring_t *ring, int32_t first_row) {
     int32_t row, end, least = INT32_MAX, most = INT32_MIN;
     rows_of(ring, &row, &end);
     row = row < first_row ? first_row : row;
-    if (row >= end || !polygon_plane(polygon, ring, row)) { return false; }
+    if (row >= end) { return false; }
+    polygon->depth = (depth_plane_t){0, 0, 0, 0, 0};
     for (uint32_t i = 0; i < ring->count; i++) {
         const int32_t x = ring_point(ring, i).x;
         least = x < least ? x : least;
@@ -250,8 +257,10 @@ bool polygon_start(polygon_t *polygon, const polygon_ring_t *ring, int32_t first
 /* A span whose plane leaves the face's depth range somewhere: pixel by pixel, clamped. */
 static TUILE_NOINLINE void span_clamped(const polygon_t *polygon, const raster_tile_t *tile, size_t at, int32_t count, int64_t z,
                                         span_kind_t kind, bool last) {
-    for (; count; count--, at++, z += polygon->dzdx) {
-        const uint32_t clamped = z < polygon->z_low ? polygon->z_low : z > polygon->z_high ? polygon->z_high : (uint32_t)z;
+    for (; count; count--, at++, z += polygon->depth.dx) {
+        const uint32_t clamped = z < polygon->depth.low    ? polygon->depth.low
+                                 : z > polygon->depth.high ? polygon->depth.high
+                                                           : (uint32_t)z;
         if (kind == SPAN_IDS) {
             span_ids(tile->depth + at, (uint32_t *)tile->colour + at, 1, clamped, 0, polygon->value, last);
         } else {
@@ -260,26 +269,35 @@ static TUILE_NOINLINE void span_clamped(const polygon_t *polygon, const raster_t
     }
 }
 
-static void polygon_span(const polygon_t *polygon, const raster_tile_t *tile, int32_t row, int32_t from, int32_t to,
+static void polygon_span(const polygon_t *polygon, const raster_tile_t *tile, int32_t row, int32_t from, int32_t to, bool tested,
                          span_kind_t kind, bool last) {
     from = from < tile->left ? tile->left : from;
     to = to > tile->right ? tile->right : to;
     if (from >= to) { return; }
     const size_t at = (size_t)(row - tile->top) * (size_t)tile->stride_px + (size_t)(from - tile->left);
-    const int64_t z = polygon->z + polygon->dzdx * from, end = polygon->z + polygon->dzdx * (to - 1);
-    const int64_t low = polygon->z_low, high = polygon->z_high;
+    if (!tested) {
+        if (kind == SPAN_IDS) {
+            paint_ids((uint32_t *)tile->colour + at, to - from, polygon->value);
+        } else {
+            paint_flat((uint16_t *)tile->colour + at, to - from, (uint16_t)polygon->value);
+        }
+        return;
+    }
+    const int64_t z = polygon->depth.z + polygon->depth.dx * from, end = polygon->depth.z + polygon->depth.dx * (to - 1);
+    const int64_t low = polygon->depth.low, high = polygon->depth.high;
     if (z < low || z > high || end < low || end > high) {
         span_clamped(polygon, tile, at, to - from, z, kind, last);
     } else if (kind == SPAN_IDS) {
-        span_ids(tile->depth + at, (uint32_t *)tile->colour + at, to - from, (uint32_t)z, (uint32_t)polygon->dzdx, polygon->value,
-                 last);
+        span_ids(tile->depth + at, (uint32_t *)tile->colour + at, to - from, (uint32_t)z, (uint32_t)polygon->depth.dx,
+                 polygon->value, last);
     } else {
-        span_flat(tile->depth + at, (uint16_t *)tile->colour + at, to - from, (uint32_t)z, (uint32_t)polygon->dzdx,
+        span_flat(tile->depth + at, (uint16_t *)tile->colour + at, to - from, (uint32_t)z, (uint32_t)polygon->depth.dx,
                   (uint16_t)polygon->value, last);
     }
 }
 
-void polygon_fill(polygon_t *polygon, const polygon_ring_t *ring, const raster_tile_t *tile, span_kind_t kind, bool last) {
+TUILE_INLINE void fill_rows(polygon_t *polygon, const polygon_ring_t *ring, const raster_tile_t *tile, bool tested,
+                            span_kind_t kind, bool last) {
     const int32_t end = polygon->head.row_end < tile->bottom ? polygon->head.row_end : tile->bottom;
     for (; polygon->row < end; polygon->row++) {
         const int32_t row = polygon->row;
@@ -287,24 +305,32 @@ void polygon_fill(polygon_t *polygon, const polygon_ring_t *ring, const raster_t
         if (polygon->chain_count) {
             const unsigned n = sorted_crossings(polygon->chains, polygon->chain_count, row, crossings);
             for (unsigned i = 0; i + 1 < n; i += 2) {
-                polygon_span(polygon, tile, row, crossings[i], crossings[i + 1], kind, last);
+                polygon_span(polygon, tile, row, crossings[i], crossings[i + 1], tested, kind, last);
             }
         } else {
             polygon_cursor_t cursor = {0, 0, false};
             while (polygon_crossing(ring, row, &cursor)) {
                 const int32_t from = cursor.x;
-                if (polygon_crossing(ring, row, &cursor)) { polygon_span(polygon, tile, row, from, cursor.x, kind, last); }
+                if (polygon_crossing(ring, row, &cursor)) { polygon_span(polygon, tile, row, from, cursor.x, tested, kind, last); }
             }
         }
         chains_step(ring, polygon->chains, polygon->chain_count, row);
-        polygon->z += polygon->dzdy;
+        polygon->depth.z += polygon->depth.dy;
     }
+}
+
+void polygon_fill(polygon_t *polygon, const polygon_ring_t *ring, const raster_tile_t *tile, span_kind_t kind, bool last) {
+    fill_rows(polygon, ring, tile, true, kind, last);
+}
+
+void polygon_paint(polygon_t *polygon, const polygon_ring_t *ring, const raster_tile_t *tile, span_kind_t kind) {
+    fill_rows(polygon, ring, tile, false, kind, false);
 }
 
 void polygon_skip(polygon_t *polygon, const polygon_ring_t *ring, int32_t target) {
     const int32_t end = polygon->head.row_end < target ? polygon->head.row_end : target;
     for (; polygon->row < end; polygon->row++) {
         chains_step(ring, polygon->chains, polygon->chain_count, polygon->row);
-        polygon->z += polygon->dzdy;
+        polygon->depth.z += polygon->depth.dy;
     }
 }

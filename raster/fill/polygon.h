@@ -60,23 +60,29 @@ bool polygon_crossing(const polygon_ring_t *ring, int32_t row, polygon_cursor_t 
 
 #define POLYGON_CHAINS 8 /* more chains than that are found row by row with polygon_crossing */
 
+/* The plane that the spans of a polygon follow; false when it has no area. */
+bool polygon_plane(const polygon_ring_t *ring, depth_plane_t *plane);
+
 typedef struct polygon {
     fill_head_t head;
     int16_t row;
     uint8_t chain_count; /* 0: too many */
     uint32_t value;
-    /* Depth at the centre of pixel (0, row) and its gradients, Q.16, and the range of the face: a polygon's corners need not lie
-     * in one plane after snapping, so depth is clamped to the range. */
-    int64_t z, dzdx, dzdy;
-    uint32_t z_low, z_high;
+    depth_plane_t depth; /* depth.z at the centre of pixel (0, row) */
     polygon_chain_t chains[POLYGON_CHAINS];
 } polygon_t;
 
 /* Sets a face up from first_row on; false when it covers no pixel row there. Leaves record and value alone. */
 bool polygon_start(polygon_t *polygon, const polygon_ring_t *ring, int32_t first_row);
 
+/* The same for painting: no depth is made. */
+bool polygon_paint_start(polygon_t *polygon, const polygon_ring_t *ring, int32_t first_row);
+
 /* Fills down to the tile's bottom. kind: SPAN_FLAT or SPAN_IDS. */
 void polygon_fill(polygon_t *polygon, const polygon_ring_t *ring, const raster_tile_t *tile, span_kind_t kind, bool last);
+
+/* The same without a depth test, over whatever is there. */
+void polygon_paint(polygon_t *polygon, const polygon_ring_t *ring, const raster_tile_t *tile, span_kind_t kind);
 
 /* The same without drawing. */
 void polygon_skip(polygon_t *polygon, const polygon_ring_t *ring, int32_t row);

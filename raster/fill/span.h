@@ -1,7 +1,8 @@
-/* The tile that is being drawn, and the innermost loops: pixels first ... first + count - 1 of one row, depth tested.
+/* The tile that is being drawn, and the innermost loops: pixels first ... first + count - 1 of one row.
  *
- * Depth is Q16.16 with the rounding half added; only its upper half is compared and kept. A face wins a pixel when it is nearer
- * than what is there; on a tie the first one stays, or with `last` the later one takes over.
+ * Tested spans: depth is Q16.16 with the rounding half added; only its upper half is compared and kept. A face wins a pixel when it
+ * is nearer than what is there; on a tie the first one stays, or with `last` the later one takes over.
+ * Painted spans ask for no depth and overwrite what is there.
  */
 #ifndef TUILE_FILL_SPAN_H
 #define TUILE_FILL_SPAN_H
@@ -11,7 +12,7 @@
 #include <stddef.h>
 
 typedef struct raster_tile {
-    uint16_t *depth;                  /* stride_px * height */
+    uint16_t *depth;                  /* stride_px * height; for tested spans only */
     void *colour;                     /* the same number of pixels, 2 or 4 bytes each */
     int32_t left, top, right, bottom; /* pixels of the window: left ... right - 1 */
     int32_t stride_px;
@@ -24,6 +25,19 @@ typedef struct fill_head {
     int16_t row_end;     /* the face covers no row from here on */
     int16_t left, right; /* pixels that it may touch: left ... right - 1 */
 } fill_head_t;
+
+/* The depth of a face at the centre of any pixel (x, y): z + x dx + y dy, Q.16 with the rounding half, held between low and high: a
+ * polygon's corners need not lie in one plane after snapping. Of triangles the pixels of the face need no holding. */
+typedef struct depth_plane {
+    int64_t z, dx, dy;
+    uint32_t low, high;
+} depth_plane_t;
+
+/* |x|, |y| <= 2048. For pixels of the face this is the very depth that its tested spans compare. */
+TUILE_INLINE uint16_t depth_at(const depth_plane_t *plane, int32_t x, int32_t y) {
+    const int64_t z = plane->z + plane->dx * x + plane->dy * y;
+    return (uint16_t)((z < plane->low ? plane->low : z > plane->high ? plane->high : (uint32_t)z) >> 16);
+}
 
 typedef enum span_kind { SPAN_FLAT, SPAN_GOURAUD, SPAN_IDS } span_kind_t;
 
@@ -61,6 +75,48 @@ TUILE_INLINE void span_ids(uint16_t *depth, uint32_t *ids, int32_t count, uint32
             ids[i] = id;
         }
         z += dz;
+    }
+}
+
+/* Two colours at once where a span is long enough to pay for aligning. Words and half words are stored to the same pixels, which
+ * the compiler must not take for different objects. */
+#if defined(__GNUC__)
+typedef uint32_t __attribute__((may_alias)) span_word_t;
+#else
+typedef uint32_t span_word_t;
+#endif
+
+TUILE_INLINE void paint_flat(uint16_t *colour, int32_t count, uint16_t value) {
+    if (count >= 8) {
+        const uint32_t both = value * 0x10001u;
+        if ((uintptr_t)colour & 2u) {
+            *colour++ = value;
+            count--;
+        }
+        for (; count >= 8; count -= 8, colour += 8) {
+            span_word_t *word = (span_word_t *)(void *)colour;
+            word[0] = both;
+            word[1] = both;
+            word[2] = both;
+            word[3] = both;
+        }
+    }
+    for (; count > 0; count--) {
+        *colour++ = value;
+    }
+}
+
+/* light: Q8.24. */
+TUILE_INLINE void paint_gouraud(uint16_t *colour, int32_t count, uint32_t light, uint32_t dx, const uint16_t *ramp) {
+    for (int32_t i = 0; i < count; i++) {
+        colour[i] = ramp[light >> 26];
+        light += dx;
+    }
+}
+
+TUILE_INLINE void paint_ids(uint32_t *ids, int32_t count, uint32_t id) {
+    for (int32_t i = 0; i < count; i++) {
+        ids[i] = id;
     }
 }
 

@@ -41,6 +41,18 @@ TUILE_INLINE int64_t gradient_part(gradient_t g, int32_t x, int32_t y) { return 
 
 TUILE_INLINE uint64_t shade_pack(int64_t depth, int64_t light) { return ((uint64_t)depth << 32) + (uint64_t)light; }
 
+TUILE_INLINE bool depths_near(int32_t z1, int32_t z2) {
+    return (uint32_t)(z1 + SMALL_DEPTH) < 2 * SMALL_DEPTH && (uint32_t)(z2 + SMALL_DEPTH) < 2 * SMALL_DEPTH;
+}
+
+/* v0 is a topmost vertex. */
+TUILE_INLINE bool sides_short(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2) {
+    const int32_t x0 = v0->x, x1 = v1->x, x2 = v2->x;
+    const int32_t least = x0 < x1 ? (x0 < x2 ? x0 : x2) : (x1 < x2 ? x1 : x2),
+                  most = x0 > x1 ? (x0 > x2 ? x0 : x2) : (x1 > x2 ? x1 : x2);
+    return most - least < SHORT_SIDE && (v1->y < v2->y ? v2->y : v1->y) - v0->y < SHORT_SIDE;
+}
+
 /* Sets one side from (x0, y0) to (x1, y1) at a row. */
 TUILE_INLINE void side_start(triangle_t *triangle, bool left, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row) {
     if (triangle->is_short) {
@@ -77,20 +89,22 @@ TUILE_INLINE void sides_start(triangle_t *t, bool bends_left, int32_t x0, int32_
     }
 }
 
-/* All but the sides. */
+/* All but the sides. Of depth and light only those that are wanted. */
 TUILE_INLINE void shade_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t row,
-                              bool gouraud) {
+                              bool tested, bool gouraud) {
     const int32_t x0 = v0->x, y0 = v0->y, x1 = v1->x - x0, y1 = v1->y - y0, x2 = v2->x - x0, y2 = v2->y - y0;
     const int32_t area = x2 * y1 - x1 * y2, reciprocal = INT32_MAX / area;
     const uint32_t depth0 = v0->depth_light >> 8;
     const int32_t z1 = (int32_t)(v1->depth_light >> 8) - (int32_t)depth0, z2 = (int32_t)(v2->depth_light >> 8) - (int32_t)depth0;
     const int32_t to_x = 8 - x0, to_y = 16 * row + 8 - y0;
-    const bool small =
-        triangle->is_short && (uint32_t)(z1 + SMALL_DEPTH) < 2 * SMALL_DEPTH && (uint32_t)(z2 + SMALL_DEPTH) < 2 * SMALL_DEPTH;
-    const gradient_t depth =
-        small ? gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12) : gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
-    uint64_t shade = shade_pack(((int64_t)depth0 << 8) + 0x8000 + gradient_part(depth, to_x & 15, to_y & 15), 0);
-    uint64_t dx = shade_pack(depth.dx, 0), dy = shade_pack(depth.dy, 0);
+    const bool small = triangle->is_short && depths_near(z1, z2);
+    uint64_t shade = 0, dx = 0, dy = 0;
+    if (tested) {
+        const gradient_t depth =
+            small ? gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12) : gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
+        shade = shade_pack(((int64_t)depth0 << 8) + 0x8000 + gradient_part(depth, to_x & 15, to_y & 15), 0);
+        dx = shade_pack(depth.dx, 0), dy = shade_pack(depth.dy, 0);
+    }
     if (gouraud) {
         const uint32_t light0 = v0->depth_light & 0xff;
         const int32_t l1 = (int32_t)(v1->depth_light & 0xff) - (int32_t)light0,
@@ -106,8 +120,8 @@ TUILE_INLINE void shade_start(triangle_t *triangle, const vertex_t *v0, const ve
     triangle->dy = dy;
 }
 
-TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
-                                   int32_t first_row, bool gouraud) {
+TUILE_INLINE void start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t first_row,
+                        bool tested, bool gouraud) {
     const int32_t x0 = v0->x, x1 = v1->x, x2 = v2->x, first = edge_row(v0->y), row = first > first_row ? first : first_row;
     const int32_t least = x0 < x1 ? (x0 < x2 ? x0 : x2) : (x1 < x2 ? x1 : x2),
                   most = x0 > x1 ? (x0 > x2 ? x0 : x2) : (x1 > x2 ? x1 : x2);
@@ -117,7 +131,7 @@ TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, con
     triangle->head.left = (int16_t)edge_row(least);
     triangle->head.right = (int16_t)edge_row(most);
     triangle->is_short = most - least < SHORT_SIDE && (bends_left ? v2->y : v1->y) - v0->y < SHORT_SIDE;
-    shade_start(triangle, v0, v1, v2, row, gouraud);
+    if (tested || gouraud) { shade_start(triangle, v0, v1, v2, row, tested, gouraud); }
     if (bends_left) {
         sides_start(triangle, true, x0, v0->y, v1, v2, row);
     } else {
@@ -125,10 +139,36 @@ TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, con
     }
 }
 
-/* kind, last, clamp and is_short are constants where this is called, so that each combination gets a loop of its own. `at` is the
- * index of the tile's pixel for x = 0 of the window, which may be negative. */
-TUILE_INLINE void fill_rows(triangle_t *t, const raster_tile_t *tile, bool is_short, bool clamp, span_kind_t kind, bool last,
-                            const uint16_t *ramp) {
+TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
+                                   int32_t first_row, bool gouraud) {
+    start(triangle, v0, v1, v2, first_row, true, gouraud);
+}
+
+void triangle_plane(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane) {
+    const int32_t x0 = v0->x, y0 = v0->y, x1 = v1->x - x0, y1 = v1->y - y0, x2 = v2->x - x0, y2 = v2->y - y0;
+    const int32_t area = x2 * y1 - x1 * y2;
+    const uint32_t depth0 = v0->depth_light >> 8;
+    const int32_t z1 = (int32_t)(v1->depth_light >> 8) - (int32_t)depth0, z2 = (int32_t)(v2->depth_light >> 8) - (int32_t)depth0;
+    const gradient_t depth = sides_short(v0, v1, v2) && depths_near(z1, z2)
+                                 ? gradient_small(z1, z2, x1, y1, x2, y2, INT32_MAX / area, 12)
+                                 : gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
+    plane->dx = depth.dx;
+    plane->dy = depth.dy;
+    plane->z = ((int64_t)depth0 << 8) + 0x8000 + gradient_part(depth, (8 - x0) & 15, (8 - y0) & 15) + depth.dx * ((8 - x0) >> 4) +
+               depth.dy * ((8 - y0) >> 4);
+    plane->low = 0;
+    plane->high = UINT32_MAX;
+}
+
+TUILE_NOINLINE void triangle_paint_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
+                                         int32_t first_row, bool gouraud) {
+    start(triangle, v0, v1, v2, first_row, false, gouraud);
+}
+
+/* tested, kind, last, clamp and is_short are constants where this is called, so that each combination gets a loop of its own. `at`
+ * is the index of the tile's pixel for x = 0 of the window, which may be negative. */
+TUILE_INLINE void fill_rows(triangle_t *t, const raster_tile_t *tile, bool tested, bool is_short, bool clamp, span_kind_t kind,
+                            bool last, const uint16_t *ramp) {
     const int32_t end = t->head.row_end < tile->bottom ? t->head.row_end : tile->bottom;
     const int32_t stride = tile->stride_px, tile_left = tile->left, tile_right = tile->right;
     const uint64_t dx = t->dx, dy = t->dy;
@@ -147,7 +187,16 @@ TUILE_INLINE void fill_rows(triangle_t *t, const raster_tile_t *tile, bool is_sh
                 to = to < tile_right ? to : tile_right;
             }
             to -= from;
-            if (to > 0) {
+            if (to > 0 && !tested) {
+                if (kind == SPAN_GOURAUD) {
+                    paint_gouraud((uint16_t *)tile->colour + (at + from), to, (uint32_t)shade + (uint32_t)dx * (uint32_t)from,
+                                  (uint32_t)dx, ramp);
+                } else if (kind == SPAN_FLAT) {
+                    paint_flat((uint16_t *)tile->colour + (at + from), to, (uint16_t)t->value);
+                } else {
+                    paint_ids((uint32_t *)tile->colour + (at + from), to, t->value);
+                }
+            } else if (to > 0) {
                 uint16_t *depth = tile->depth + (at + from);
                 if (kind == SPAN_GOURAUD) {
                     span_gouraud(depth, (uint16_t *)tile->colour + (at + from), to, shade + dx * (uint64_t)(int64_t)from, dx, ramp,
@@ -188,23 +237,41 @@ TUILE_INLINE void fill_rows(triangle_t *t, const raster_tile_t *tile, bool is_sh
 }
 
 TUILE_NOINLINE void triangle_fill_gouraud(triangle_t *t, const raster_tile_t *tile, const uint16_t *ramp) {
-    fill_rows(t, tile, true, false, SPAN_GOURAUD, false, ramp);
+    fill_rows(t, tile, true, true, false, SPAN_GOURAUD, false, ramp);
 }
 
 TUILE_NOINLINE void triangle_fill_flat(triangle_t *t, const raster_tile_t *tile) {
-    fill_rows(t, tile, true, false, SPAN_FLAT, false, NULL);
+    fill_rows(t, tile, true, true, false, SPAN_FLAT, false, NULL);
+}
+
+TUILE_NOINLINE void triangle_paint_gouraud(triangle_t *t, const raster_tile_t *tile, const uint16_t *ramp) {
+    fill_rows(t, tile, false, true, false, SPAN_GOURAUD, false, ramp);
+}
+
+TUILE_NOINLINE void triangle_paint_flat(triangle_t *t, const raster_tile_t *tile) {
+    fill_rows(t, tile, false, true, false, SPAN_FLAT, false, NULL);
+}
+
+TUILE_INLINE void fill_any(triangle_t *t, const raster_tile_t *tile, bool tested, span_kind_t kind, bool last,
+                           const uint16_t *ramp) {
+    if (kind == SPAN_GOURAUD) {
+        t->is_short ? fill_rows(t, tile, tested, true, true, SPAN_GOURAUD, last, ramp)
+                    : fill_rows(t, tile, tested, false, true, SPAN_GOURAUD, last, ramp);
+    } else if (kind == SPAN_FLAT) {
+        t->is_short ? fill_rows(t, tile, tested, true, true, SPAN_FLAT, last, NULL)
+                    : fill_rows(t, tile, tested, false, true, SPAN_FLAT, last, NULL);
+    } else {
+        t->is_short ? fill_rows(t, tile, tested, true, true, SPAN_IDS, last, NULL)
+                    : fill_rows(t, tile, tested, false, true, SPAN_IDS, last, NULL);
+    }
 }
 
 TUILE_NOINLINE void triangle_fill_any(triangle_t *t, const raster_tile_t *tile, span_kind_t kind, bool last, const uint16_t *ramp) {
-    if (kind == SPAN_GOURAUD) {
-        t->is_short ? fill_rows(t, tile, true, true, SPAN_GOURAUD, last, ramp)
-                    : fill_rows(t, tile, false, true, SPAN_GOURAUD, last, ramp);
-    } else if (kind == SPAN_FLAT) {
-        t->is_short ? fill_rows(t, tile, true, true, SPAN_FLAT, last, NULL)
-                    : fill_rows(t, tile, false, true, SPAN_FLAT, last, NULL);
-    } else {
-        t->is_short ? fill_rows(t, tile, true, true, SPAN_IDS, last, NULL) : fill_rows(t, tile, false, true, SPAN_IDS, last, NULL);
-    }
+    fill_any(t, tile, true, kind, last, ramp);
+}
+
+TUILE_NOINLINE void triangle_paint_any(triangle_t *t, const raster_tile_t *tile, span_kind_t kind, const uint16_t *ramp) {
+    fill_any(t, tile, false, kind, false, ramp);
 }
 
 void triangle_skip(triangle_t *t, int32_t target) {

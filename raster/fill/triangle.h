@@ -29,6 +29,13 @@ typedef struct triangle {
 void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t first_row,
                     bool gouraud);
 
+/* The plane that the tested spans of the triangle follow. */
+void triangle_plane(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane);
+
+/* The same for painting: no depth is made. */
+void triangle_paint_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t first_row,
+                          bool gouraud);
+
 /* All of these fill the rows from triangle->row to the tile's bottom or the triangle's end, and leave the state there;
  * triangle->row < tile->bottom. The first two are for short sides, within the tile's columns, where the first of equals wins. */
 void triangle_fill_gouraud(triangle_t *triangle, const raster_tile_t *tile, const uint16_t *ramp);
@@ -45,6 +52,22 @@ TUILE_INLINE void triangle_fill(triangle_t *triangle, const raster_tile_t *tile,
         triangle_fill_gouraud(triangle, tile, ramp);
     } else {
         triangle_fill_flat(triangle, tile);
+    }
+}
+
+/* The same without a depth test, over whatever is there. */
+void triangle_paint_gouraud(triangle_t *triangle, const raster_tile_t *tile, const uint16_t *ramp);
+void triangle_paint_flat(triangle_t *triangle, const raster_tile_t *tile);
+void triangle_paint_any(triangle_t *triangle, const raster_tile_t *tile, span_kind_t kind, const uint16_t *ramp);
+
+TUILE_INLINE void triangle_paint(triangle_t *triangle, const raster_tile_t *tile, span_kind_t kind, const uint16_t *ramp) {
+    if (TUILE_UNLIKELY(!triangle->is_short || triangle->head.left < tile->left || triangle->head.right > tile->right ||
+                       kind == SPAN_IDS)) {
+        triangle_paint_any(triangle, tile, kind, ramp);
+    } else if (kind == SPAN_GOURAUD) {
+        triangle_paint_gouraud(triangle, tile, ramp);
+    } else {
+        triangle_paint_flat(triangle, tile);
     }
 }
 

@@ -3,8 +3,6 @@
 
 #include "frame.h"
 
-enum { BIN_OK = 0, BIN_FULL = 1 };
-
 typedef struct cluster {
     const uint8_t *bytes; /* in the model's table */
     const uint8_t *faces;
@@ -43,7 +41,7 @@ TUILE_INLINE void record_emit(tuile_t *t, record_t *record, int32_t row, uint32_
     if (t->record_bytes == sizeof(record_id_t)) { ((record_id_t *)(void *)record)->id = id + 1; }
     t->stats.faces_binned++;
     if (TUILE_UNLIKELY(t->immediate)) {
-        t->method->draw_now(t, t->record_count);
+        t->draw_now(t, t->record_count);
         return;
     }
     if (row < t->region.top) { row = t->region.top; }
@@ -76,11 +74,11 @@ TUILE_INLINE int bin_triangle(tuile_t *t, uint32_t base, uint32_t a, uint32_t b,
     if (area <= 0) {
         if (area == 0) {
             t->stats.faces_degenerate++;
-            return BIN_OK;
+            return FRAME_OK;
         }
         if (TUILE_LIKELY(!t->transform.two_sided)) {
             t->stats.faces_back++;
-            return BIN_OK;
+            return FRAME_OK;
         }
         const uint32_t swap = b;
         b = c;
@@ -106,17 +104,17 @@ TUILE_INLINE int bin_triangle(tuile_t *t, uint32_t base, uint32_t a, uint32_t b,
     }
     if (!box_in_region(t, least3(va->x, vb->x, vc->x), most3(va->x, vb->x, vc->x), top, bottom)) {
         t->stats.faces_outside++;
-        return BIN_OK;
+        return FRAME_OK;
     }
     record_t *record = record_claim(t);
-    if (TUILE_UNLIKELY(record == NULL)) { return BIN_FULL; }
+    if (TUILE_UNLIKELY(record == NULL)) { return FRAME_FULL; }
     record->v0 = (uint16_t)(base + a);
     record->d1 = (int8_t)(b - a);
     record->d2 = (int8_t)(c - a);
     record->material = (uint8_t)(material + t->material_base);
     record->light = normal ? flat_light(t, normal, back) : 0;
     record_emit(t, record, edge_row(top), id);
-    return BIN_OK;
+    return FRAME_OK;
 }
 
 /* The same for the rarer callers, so that it is not inlined once more for each. */
@@ -142,19 +140,19 @@ static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *b
     }
     if (area < 0 && !t->transform.two_sided) {
         t->stats.faces_back++;
-        return BIN_OK;
+        return FRAME_OK;
     }
     if (!box_in_region(t, left, right, top, bottom)) {
         t->stats.faces_outside++;
-        return BIN_OK;
+        return FRAME_OK;
     }
     /* An area of 0 may still cover pixels (a bow tie), so only a box without area is degenerate, and that was dropped above. */
     const uint32_t slots = 1 + (ring->corners ? (ring->count + 7) / 8 : 0);
-    if (slots > slots_left(t)) { return BIN_FULL; }
+    if (slots > slots_left(t)) { return FRAME_FULL; }
     polygon_slot_t *slot = (polygon_slot_t *)(void *)(t->vertices + t->vertex_count);
     t->vertex_count += slots;
     record_t *record = record_claim(t);
-    if (record == NULL) { return BIN_FULL; }
+    if (record == NULL) { return FRAME_FULL; }
     *slot = (polygon_slot_t){(uint16_t)ring->count, (uint16_t)(base - t->vertices), ring->corners != NULL, 0};
     if (ring->corners) {
         uint8_t *list = (uint8_t *)(slot + 1);
@@ -170,7 +168,7 @@ static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *b
                          normal ? flat_light(t, normal, area < 0) : (uint8_t)v0->depth_light};
     record_emit(t, record, edge_row(top), id);
     if (t->immediate) { t->vertex_count -= slots; }
-    return BIN_OK;
+    return FRAME_OK;
 }
 
 /* A face of which some corner is beyond near plane, far plane or guard band. */
@@ -180,13 +178,13 @@ static TUILE_NOINLINE int bin_clipped(tuile_t *t, const cluster_t *cluster, cons
     vertex_t *out = t->vertices + t->vertex_count;
     const uint32_t mark = t->vertex_count;
     const int left = clip_polygon(&t->transform, &face, out, slots_left(t));
-    int result = BIN_OK;
+    int result = FRAME_OK;
 
-    if (left < 0) { return BIN_FULL; }
+    if (left < 0) { return FRAME_FULL; }
     t->stats.faces_clipped++;
     if (left == 0) {
         t->stats.faces_clipped_away++;
-        return BIN_OK;
+        return FRAME_OK;
     }
     t->vertex_count += (uint32_t)left;
     const uint32_t binned = t->record_count;
@@ -197,14 +195,14 @@ static TUILE_NOINLINE int bin_clipped(tuile_t *t, const cluster_t *cluster, cons
     if (left == 3) {
         result = bin_one_triangle(t, mark, 0, 1, 2, material, normal, id);
     } else if (normal == NULL && !lit_alike && left <= 100) {
-        for (uint32_t i = 1; i + 1 < (uint32_t)left && result == BIN_OK; i++) {
+        for (uint32_t i = 1; i + 1 < (uint32_t)left && result == FRAME_OK; i++) {
             result = bin_one_triangle(t, mark, 0, i, i + 1, material, NULL, id);
         }
     } else {
         const polygon_ring_t ring = {out, NULL, NULL, (uint32_t)left};
         result = bin_polygon(t, &ring, out, material, normal, id);
     }
-    if (t->immediate || (result == BIN_OK && t->record_count == binned)) { t->vertex_count = mark; }
+    if (t->immediate || (result == FRAME_OK && t->record_count == binned)) { t->vertex_count = mark; }
     return result;
 }
 
@@ -216,9 +214,9 @@ static int bin_triangles(tuile_t *t, const cluster_t *cluster, unsigned count) {
     const uint32_t base = (uint32_t)(cluster->vertices - t->vertices);
     for (unsigned f = 0; f < count; f++, face += 4, normal += normal_step) {
         const int result = bin_triangle(t, base, face[0], face[1], face[2], face[3], normal, cluster->first_face + f);
-        if (TUILE_UNLIKELY(result != BIN_OK)) { return result; }
+        if (TUILE_UNLIKELY(result != FRAME_OK)) { return result; }
     }
-    return BIN_OK;
+    return FRAME_OK;
 }
 
 static TUILE_NOINLINE int bin_outside_triangles(tuile_t *t, const cluster_t *cluster, unsigned count) {
@@ -231,15 +229,15 @@ static TUILE_NOINLINE int bin_outside_triangles(tuile_t *t, const cluster_t *clu
         const uint32_t id = cluster->first_face + f;
         const int result = outside ? bin_clipped(t, cluster, face, 3, face[3], normal, id)
                                    : bin_one_triangle(t, base, face[0], face[1], face[2], face[3], normal, id);
-        if (TUILE_UNLIKELY(result != BIN_OK)) { return result; }
+        if (TUILE_UNLIKELY(result != FRAME_OK)) { return result; }
     }
-    return BIN_OK;
+    return FRAME_OK;
 }
 
 /* A triangle in a cluster whose vertices may lie too far apart for a record: it gets copies that stand together. */
 static int bin_far_triangle(tuile_t *t, const cluster_t *cluster, const uint8_t corners[3], uint8_t material, const int8_t *normal,
                             uint32_t id) {
-    if (slots_left(t) < 3) { return BIN_FULL; }
+    if (slots_left(t) < 3) { return FRAME_FULL; }
     vertex_t *v = t->vertices + t->vertex_count;
     const uint32_t binned = t->record_count;
     for (unsigned i = 0; i < 3; i++) {
@@ -260,7 +258,7 @@ static int bin_polygons(tuile_t *t, const cluster_t *cluster, unsigned count) {
         const uint8_t flags = face[1], material = face[2], *corner = face + 3;
         const uint32_t id = cluster->first_face + f;
         bool outside = false, lit_alike = true;
-        int result = BIN_OK;
+        int result = FRAME_OK;
         for (unsigned i = 0; i < corners; i++) {
             const vertex_t *v = &cluster->vertices[corner[i]];
             outside |= v->x == VERTEX_OUTSIDE;
@@ -270,7 +268,7 @@ static int bin_polygons(tuile_t *t, const cluster_t *cluster, unsigned count) {
         /* Gouraud: light is affine on a triangle only, so a smooth convex polygon is cut into a fan. */
         const bool fan = normal == NULL && !lit_alike && flags & MODEL_FACE_CONVEX;
         const unsigned parts = fan ? corners - 2 : 1;
-        for (unsigned p = 1; p <= parts && result == BIN_OK; p++) {
+        for (unsigned p = 1; p <= parts && result == FRAME_OK; p++) {
             const uint8_t part[3] = {corner[0], corner[p], corner[p + 1]};
             const vertex_t *v = cluster->vertices;
             if (outside) {
@@ -284,9 +282,9 @@ static int bin_polygons(tuile_t *t, const cluster_t *cluster, unsigned count) {
                 result = bin_polygon(t, &ring, v, material, normal, id);
             }
         }
-        if (result != BIN_OK) { return result; }
+        if (result != FRAME_OK) { return result; }
     }
-    return BIN_OK;
+    return FRAME_OK;
 }
 
 static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
@@ -298,13 +296,13 @@ static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
     t->stats.clusters++;
     if (cull_outside(&t->transform, bytes)) {
         t->stats.clusters_outside++;
-        return BIN_OK;
+        return FRAME_OK;
     }
     if (cull_faces_away(&t->transform, bytes)) {
         t->stats.clusters_facing_away++;
-        return BIN_OK;
+        return FRAME_OK;
     }
-    if (vertices > slots_left(t)) { return BIN_FULL; }
+    if (vertices > slots_left(t)) { return FRAME_FULL; }
     const uint32_t mark = t->vertex_count, binned = t->record_count;
     cluster_t cluster = {
         bytes,
@@ -319,6 +317,7 @@ static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
         vertex_stage(&t->transform, cluster.positions, flat ? NULL : (const int8_t *)model->normals + 3 * (size_t)first_vertex,
                      vertices, cluster.vertices);
     t->vertex_count += vertices;
+    t->cluster_end = t->vertex_count;
     t->stats.vertices += vertices;
     t->stats.faces_tested += faces;
     const int result = bytes[CLUSTER_AT_KIND] != MODEL_CLUSTER_TRIANGLES ? bin_polygons(t, &cluster, faces)
@@ -345,11 +344,11 @@ int bin_pass(tuile_t *t) {
         t->material_base = (uint16_t)frame_material_base(scene, i);
         for (uint32_t k = 0; k < model->cluster_count; k++) {
             const int result = bin_cluster(t, model->clusters + (size_t)k * MODEL_CLUSTER_BYTES);
-            if (result != BIN_OK) { return result; }
+            if (result != FRAME_OK) { return result; }
         }
         t->face_base += model->face_count;
     }
-    return BIN_OK;
+    return FRAME_OK;
 }
 
 void bin_again(tuile_t *t, uint16_t row) {

@@ -1,11 +1,4 @@
-/* A frame: the block laid out, passes over bands of the window, one tile after the other.
- *
- * A pass takes as many tile rows as its vertices and records find room for. It starts from what fitted last time; when the arena
- * overflows the band is halved and tried again, down to one tile row. When even that does not fit, each tile of the row is drawn in
- * a pass of its own in which faces are not kept but drawn as they come, which needs room for one cluster and one face only. Since
- * depth, light and coverage of a face at a pixel do not depend on where a pass begins, and faces come in the same order, the
- * picture is the same in all cases.
- */
+/* A frame: the block laid out, one tile after the other. How a tile comes by its faces is pass.c's. */
 #include "frame.h"
 
 #include "../memory.h"
@@ -19,16 +12,32 @@ const char *tuile_error_text(int error) {
     case TUILE_ERROR_CAMERA: return "the camera is degenerate";
     case TUILE_ERROR_RANGE: return "model, pose and camera leave the number range";
     case TUILE_ERROR_SEQUENCE: return "called out of sequence";
-    case TUILE_ERROR_LIMITS: return "a model has larger clusters, or faces with more corners, than the renderer was laid out for";
+    case TUILE_ERROR_LIMITS:
+        return "a model has larger clusters, faces with more corners or a deeper tree than the renderer was laid out for";
+    case TUILE_ERROR_TREE: return "a model has no display tree";
     default: return "unknown error";
     }
 }
 
 /* ---- init ---- */
 
+/* Boards that draw by one method leave out the code of the others: -DTUILE_METHODS=1 keeps the z-buffer only. */
+#ifndef TUILE_METHODS
+#define TUILE_METHODS 0x1f
+#endif
+#define METHOD(number, method) ((TUILE_METHODS) >> (number)&1 ? &(method) : NULL)
+
+static const visibility_method_t *method_of(uint8_t number) {
+    switch (number) {
+    case TUILE_ZBUFFER: return METHOD(TUILE_ZBUFFER, visibility_zbuffer);
+    default: return NULL;
+    }
+}
+
 /* Tile height that leaves five sixths of the block to the arena: a second pass costs more than lower tiles do. */
 static uint16_t default_tile_height(const tuile_config_t *c, size_t size_bytes) {
-    const size_t row_bytes = (size_t)c->tile_width * (2u + c->buffers * TUILE_FORMAT_BYTES(c->format));
+    const size_t depth = c->method == TUILE_ZBUFFER ? sizeof(uint16_t) : 0;
+    const size_t row_bytes = (size_t)c->tile_width * (depth + c->buffers * TUILE_FORMAT_BYTES(c->format));
     size_t rows = size_bytes / 6u / row_bytes;
     rows = rows > 24 ? 24 : rows < 1 ? 1 : rows;
     return (uint16_t)(rows > c->height ? c->height : rows);
@@ -36,7 +45,7 @@ static uint16_t default_tile_height(const tuile_config_t *c, size_t size_bytes) 
 
 static bool config_complete(tuile_config_t *c, size_t size_bytes) {
     if (c->width == 0 || c->height == 0 || c->width > TUILE_WINDOW_MAX_PX || c->height > TUILE_WINDOW_MAX_PX || c->buffers > 2 ||
-        c->format > TUILE_FACE_IDS || c->method > TUILE_ZBUFFER || c->shade > TUILE_GOURAUD || c->tie > TUILE_TIE_LAST ||
+        c->format > TUILE_FACE_IDS || method_of(c->method) == NULL || c->shade > TUILE_GOURAUD || c->tie > TUILE_TIE_LAST ||
         c->tile_width > TUILE_WINDOW_MAX_PX || c->tile_height > TUILE_WINDOW_MAX_PX || c->cluster_vertices > 255 ||
         c->corners > 255 || c->row_first > c->height || c->row_end > c->height || (c->row_end != 0 && c->row_end < c->row_first)) {
         return false;
@@ -57,24 +66,26 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     tuile_config_t c = *config;
     *renderer = NULL;
     if (!config_complete(&c, size_bytes)) { return TUILE_ERROR_ARGUMENT; }
+    const visibility_method_t *method = method_of(c.method);
+    const size_t pixels = (size_t)c.tile_width * c.tile_height;
+    const size_t tile_bytes = TUILE_ALIGN64(method->tile_bytes ? method->tile_bytes(&c) : 0);
     const size_t least = TUILE_LEAST_BYTES((size_t)c.height, (size_t)c.tile_width, (size_t)c.tile_height, c.format,
-                                           (size_t)c.buffers, (size_t)c.cluster_vertices) +
-                         TUILE_CORNERS_BYTES(c.corners);
+                                           (size_t)c.buffers, (size_t)c.cluster_vertices) -
+                         TUILE_ALIGN64(2u * pixels) + tile_bytes + TUILE_CORNERS_BYTES(c.corners);
     if (wanted_bytes) { *wanted_bytes = least; }
     if (block == NULL || size_bytes < least) { return TUILE_ERROR_MEMORY; }
     if ((uintptr_t)block % 8 != 0 || size_bytes > UINT32_MAX) { return TUILE_ERROR_ARGUMENT; }
 
     tuile_t *t = block;
     uint8_t *at = (uint8_t *)block + TUILE_STATE_BYTES;
-    const size_t pixels = (size_t)c.tile_width * c.tile_height;
     memset(t, 0, sizeof *t);
     t->config = c;
     t->stats.size_bytes = (uint32_t)size_bytes;
     t->stats.least_bytes = (uint32_t)least;
     t->tile_columns = (uint16_t)((c.width + c.tile_width - 1) / c.tile_width);
     t->tile_rows = (uint16_t)((c.height + c.tile_height - 1) / c.tile_height);
-    t->depth = (uint16_t *)(void *)at;
-    at += TUILE_ALIGN64(2u * pixels);
+    t->tile_memory = at;
+    at += tile_bytes;
     for (unsigned b = 0; b < c.buffers; b++) {
         t->colours[b] = at;
         at += TUILE_ALIGN64((size_t)TUILE_FORMAT_BYTES(c.format) * pixels);
@@ -85,11 +96,13 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     t->arena_end = (uint8_t *)block + (size_bytes & ~(size_t)7u);
     t->record_bytes = c.format == TUILE_FACE_IDS ? sizeof(record_id_t) : sizeof(record_t);
     t->rows_hint = t->tile_rows;
-    t->method = &visibility_zbuffer; /* the only one yet */
+    t->method = method;
     t->span_kind = c.format == TUILE_FACE_IDS ? SPAN_IDS : c.shade == TUILE_GOURAUD ? SPAN_GOURAUD : SPAN_FLAT;
     *renderer = t;
     return TUILE_OK;
 }
+
+size_t tuile_wanted(const tuile_t *t) { return t->wanted_bytes; }
 
 const tuile_config_t *tuile_config(const tuile_t *t) { return &t->config; }
 
@@ -141,66 +154,9 @@ int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     t->vertices = (vertex_t *)(void *)(t->arena + TUILE_ALIGN8(ramps * ramp));
     const size_t slots = (size_t)(t->arena_end - (uint8_t *)t->vertices) / sizeof(vertex_t);
     t->vertex_limit = (uint32_t)(slots > 65535 ? 65535 : slots);
-    t->pass_valid = false;
+    t->pass_valid = t->narrow = t->immediate = t->shrunk = false;
     t->next_tile = t->config.tile_first;
     t->in_frame = true;
-    return TUILE_OK;
-}
-
-/* ---- passes ---- */
-
-static void pass_set(tuile_t *t, uint32_t first, uint32_t end, uint32_t column, bool immediate) {
-    const tuile_config_t *c = &t->config;
-    t->pass_first = (uint16_t)first;
-    t->pass_end = (uint16_t)end;
-    t->immediate = immediate;
-    t->region.top = (uint16_t)(first * c->tile_height);
-    t->region.bottom = (uint16_t)(end * c->tile_height < c->height ? end * c->tile_height : c->height);
-    t->region.left = (uint16_t)(immediate ? column * c->tile_width : 0);
-    const uint32_t right = immediate ? (column + 1) * c->tile_width : c->width;
-    t->region.right = (uint16_t)(right < c->width ? right : c->width);
-}
-
-/* The block that would have held this pass. */
-static void pass_measure(tuile_t *t, size_t carried_bytes) {
-    const size_t used = (size_t)((uint8_t *)(t->vertices + t->vertex_count) - (uint8_t *)t) + carried_bytes +
-                        (size_t)t->record_count * t->record_bytes;
-    if (used > t->stats.peak_bytes) { t->stats.peak_bytes = (uint32_t)used; }
-}
-
-static void rows_restart(tuile_t *t, uint32_t row) {
-    t->row = (uint16_t)row;
-    t->row_ready = false;
-    t->states = (uint8_t *)(t->vertices + t->vertex_count);
-    t->stream = t->stream_end = t->states;
-    t->uncarried = RECORD_NONE;
-}
-
-/* A pass that begins at tile row `row`. */
-static int pass_begin(tuile_t *t, uint32_t row) {
-    const uint32_t end = (uint32_t)(t->config.row_end + t->config.tile_height - 1) / t->config.tile_height;
-    uint32_t rows = t->rows_hint;
-    if (rows > end - row) { rows = end > row ? end - row : 1; }
-    for (;;) {
-        pass_set(t, row, row + rows, 0, false);
-        const int result = bin_pass(t);
-        if (result < 0) { return result; }
-        if (result == 0) { break; }
-        if (rows == 1) {
-            t->rows_hint = 1;
-            t->immediate = true;
-            t->pass_valid = true;
-            return TUILE_OK;
-        }
-        rows /= 2;
-    }
-    pass_measure(t, 0);
-    /* What fitted with room to spare may be tried larger next time. */
-    const size_t total = (size_t)t->vertex_limit * sizeof(vertex_t);
-    const size_t used = t->vertex_count * sizeof(vertex_t) + (size_t)t->record_count * t->record_bytes;
-    t->rows_hint = (uint16_t)(used <= total / 2 ? (rows * 2 > t->tile_rows ? t->tile_rows : rows * 2) : rows);
-    t->pass_valid = true;
-    rows_restart(t, row);
     return TUILE_OK;
 }
 
@@ -213,31 +169,8 @@ static void tile_place(tuile_t *t, uint32_t row, uint32_t column) {
     t->tile.right = t->tile.left + c->tile_width < c->width ? t->tile.left + c->tile_width : c->width;
     t->tile.bottom = t->tile.top + c->tile_height < c->height ? t->tile.top + c->tile_height : c->height;
     t->tile.stride_px = t->tile.right - t->tile.left;
-    t->tile.depth = t->depth;
+    t->tile.depth = NULL;
     t->tile.colour = t->colours[t->next_buffer];
-}
-
-static int draw(tuile_t *t, uint32_t row, uint32_t column) {
-    int error = 0;
-    if (!t->pass_valid || row < t->pass_first || row >= t->pass_end) {
-        error = pass_begin(t, row);
-        if (error) { return error; }
-    }
-    t->method->clear(t);
-    if (t->immediate) {
-        pass_set(t, row, row + 1, column, true);
-        error = bin_pass(t);
-        t->stats.tiles_immediate++;
-        t->stats.peak_bytes = t->stats.size_bytes;
-        return error > 0 ? TUILE_ERROR_MEMORY : error;
-    }
-    if (row < t->row) {
-        bin_again(t, (uint16_t)row);
-        rows_restart(t, row);
-    }
-    t->method->draw_tile(t, (uint16_t)row);
-    pass_measure(t, (size_t)(t->stream_end - t->stream));
-    return TUILE_OK;
 }
 
 int tuile_next(tuile_t *t, tuile_tile_t *tile) {
@@ -250,7 +183,7 @@ int tuile_next(tuile_t *t, tuile_tile_t *tile) {
         if (top < t->config.row_first) { continue; }
 
         tile_place(t, row, column);
-        const int error = draw(t, row, column);
+        const int error = pass_draw(t, row, column);
         if (error) { return error; }
         tile->x = (uint16_t)t->tile.left;
         tile->y = (uint16_t)t->tile.top;

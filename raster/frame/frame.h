@@ -1,7 +1,7 @@
 /* The inside of a renderer: how the caller's block is laid out, and the lists that lead from faces to tiles.
  *
- *   block: | tuile_t | depth | colours 0 | colours 1 | buckets | arena ...                                            |
- *   arena: | shading ramps | vertices ->                 <- carried states moved up          <- records (from the end) |
+ *   block: | tuile_t | tile memory of the method | colours 0 | colours 1 | buckets | arena ...                        |
+ *   arena: | shading ramps | tree memory | vertices ->   <- carried states moved up          <- records (from the end) |
  *
  * A record is one face of the pass. Records are numbered in the order of the faces, so their numbers decide ties. Each hangs in the
  * bucket of the tile row where it starts; from there on its state is carried in a stream between vertices and records, in the
@@ -47,14 +47,25 @@ typedef struct polygon_slot {
 } polygon_slot_t;
 _Static_assert(sizeof(vertex_t) == 8 && sizeof(polygon_slot_t) == 8 && sizeof(record_t) == 8, "one slot");
 
+enum { FRAME_OK = 0, FRAME_FULL = 1 }; /* FULL: the arena is; negative: tuile_error_t */
+
 /* A hidden-surface method: what a frame asks of it. t->tile is the tile that is being drawn. */
 typedef struct visibility_method {
-    /* Background into the tile. */
+    /* Bytes beside the colours of a tile that must be there for as long as the renderer is; NULL: none. They lie at t->tile_memory,
+     * 64-byte aligned, and have no content that lasts from tile to tile. */
+    size_t (*tile_bytes)(const tuile_config_t *config);
+    /* Faces of the pass into records. */
+    int (*gather)(tuile_t *t);
+    /* Before each tile, behind the background; NULL: nothing. */
     void (*clear)(tuile_t *t);
-    /* Immediate pass: the face of a record into the tile; the record goes away after the call. */
+    /* Immediate pass: the face of a record into the tile; the record goes away after the call. NULL: the method needs all faces of
+     * a tile at once. */
     void (*draw_now)(tuile_t *t, uint32_t number);
-    /* All faces of tile row `row` into the tile, one of that row's columns; rows do not go back within a pass. */
-    void (*draw_tile)(tuile_t *t, uint16_t row);
+    /* All faces of tile row `row` into the tile, one of that row's columns; rows do not go back within a pass. FULL: the free room
+     * between vertices and records was too small; it is called again, with a clear tile, in a smaller pass. */
+    int (*draw_tile)(tuile_t *t, uint16_t row);
+    /* The free room that suffices to draw a tile of so many records; NULL: none is needed. */
+    size_t (*room_bytes)(const tuile_config_t *config, uint32_t records);
 } visibility_method_t;
 
 extern const visibility_method_t visibility_zbuffer; /* visibility/zbuffer.c */
@@ -64,7 +75,7 @@ typedef struct tuile {
     tuile_config_t config;
     const tuile_scene_t *scene;
     tuile_stats_t stats;
-    uint16_t *depth;
+    void *tile_memory;
     uint8_t *colours[2];
     uint16_t *buckets; /* one per tile row of the window */
     uint8_t *arena, *arena_end;
@@ -82,8 +93,15 @@ typedef struct tuile {
     uint32_t vertex_count, vertex_limit;
     uint32_t record_count;
     uint16_t pass_first, pass_end; /* tile rows */
-    uint16_t rows_hint;            /* tile rows that fitted last time */
-    bool immediate;                /* the pass covers one tile, faces are drawn as they come */
+    uint16_t pass_column;          /* narrow pass: its only column */
+    uint16_t rows_hint;            /* tile rows that fitted last time; 0: only a narrow pass did */
+    bool narrow;                   /* the pass covers one tile */
+    bool shrunk;                   /* a pass of this frame proved too large when it was drawn */
+    bool immediate;                /* narrow, and faces are drawn as they come, by draw_now */
+    void (*draw_now)(tuile_t *t, uint32_t number);
+    size_t wanted_bytes;  /* of the last call that failed for lack of memory */
+    uint32_t counted;     /* faces, while that is found out */
+    uint32_t cluster_end; /* vertices from here on were made by clipping */
     bool in_frame, pass_valid;
     transform_region_t region;
     transform_t transform;
@@ -101,6 +119,17 @@ typedef struct tuile {
 } tuile_state_t;
 _Static_assert(sizeof(tuile_state_t) <= TUILE_STATE_BYTES, "TUILE_STATE_BYTES");
 
+/* 64 bytes at a time; size_bytes is rounded up to that, which tile memory and colours have room for (TUILE_ALIGN64). */
+void frame_fill_words(void *bytes, uint32_t word, size_t size_bytes);
+
+/* The room between vertices and records, 8-byte aligned at both ends: what a method may use while it draws. */
+TUILE_INLINE uint8_t *frame_room(const tuile_t *t, size_t *size_bytes) {
+    uint8_t *first = (uint8_t *)(t->vertices + t->vertex_count);
+    const uint8_t *end = t->arena_end - ((size_t)t->record_count * t->record_bytes + 7) / 8 * 8;
+    *size_bytes = end > first ? (size_t)(end - first) : 0;
+    return first;
+}
+
 TUILE_INLINE record_t *frame_record(const tuile_t *t, uint32_t number) {
     return (record_t *)(void *)(t->arena_end - (size_t)(number + 1) * t->record_bytes);
 }
@@ -109,12 +138,20 @@ TUILE_INLINE uint32_t frame_record_id(const record_t *record) { return ((const r
 
 /* ---- bin.c: the vertex stage and the faces of a pass ---- */
 
-/* Runs all clusters over the region of the pass. 0, 1 when the arena was full, or a negative error. In an immediate pass each
- * face is handed to the method at once and never overflows unless a single cluster does. */
+/* Runs all clusters over the region of the pass. In an immediate pass each face is handed to t->draw_now at once, which never
+ * overflows unless a single cluster does. */
 int bin_pass(tuile_t *t);
 
 /* Hangs all records that reach tile row `row` or below into the buckets again. */
 void bin_again(tuile_t *t, uint16_t row);
+
+/* ---- pass.c ---- */
+
+/* Draws the tile that t->tile describes, in a pass that is there or a new one. FRAME_OK or a negative error. */
+int pass_draw(tuile_t *t, uint32_t row, uint32_t column);
+
+/* Keeps the record of how much of the block the pass took, room_bytes of the room between vertices and records among it. */
+void pass_measure(tuile_t *t, size_t room_bytes);
 
 /* ---- record.c ---- */
 

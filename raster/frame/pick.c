@@ -143,7 +143,7 @@ int tuile_pick(const tuile_scene_t *scene, const tuile_config_t *config, uint16_
 
     uint32_t id = *(const uint32_t *)(const void *)tile.bytes;
     if (id == 0) { return 0; }
-    hit->depth = t->depth[0];
+    hit->depth = *(const uint16_t *)t->tile_memory;
     hit->face = id - 1;
     hit->instance = 0;
     while (hit->face >= scene->instances[hit->instance].model->face_count) {

@@ -1,0 +1,173 @@
+/* Passes over bands of the window.
+ *
+ * A pass takes as many tile rows as its vertices and records find room for. It starts from what fitted last time; when the arena
+ * overflows the band is halved and tried again, down to one tile row. When even that does not fit, each tile of the row is drawn in
+ * a pass of its own: one in which faces are not kept but drawn as they come, which needs room for one cluster and one face only,
+ * or, with methods that must see all faces of a tile at once, a narrow one over this tile alone. When that does not fit either, the
+ * frame ends with TUILE_ERROR_MEMORY, and tuile_wanted tells what would be enough. Since depth, light and coverage of a face at a
+ * pixel do not depend on where a pass begins, and faces come in the same order, the picture is the same in all cases.
+ */
+#include "frame.h"
+
+/* column: of a narrow pass. */
+static void pass_set(tuile_t *t, uint32_t first, uint32_t end, uint32_t column, bool narrow) {
+    const tuile_config_t *c = &t->config;
+    t->pass_first = (uint16_t)first;
+    t->pass_end = (uint16_t)end;
+    t->pass_column = (uint16_t)column;
+    t->narrow = narrow;
+    t->immediate = narrow && t->method->draw_now != NULL;
+    t->draw_now = t->method->draw_now;
+    t->region.top = (uint16_t)(first * c->tile_height);
+    t->region.bottom = (uint16_t)(end * c->tile_height < c->height ? end * c->tile_height : c->height);
+    t->region.left = (uint16_t)(narrow ? column * c->tile_width : 0);
+    const uint32_t right = narrow ? (column + 1) * c->tile_width : c->width;
+    t->region.right = (uint16_t)(right < c->width ? right : c->width);
+}
+
+static bool pass_covers(const tuile_t *t, uint32_t row, uint32_t column) {
+    return t->pass_valid && row >= t->pass_first && row < t->pass_end && (!t->narrow || t->immediate || column == t->pass_column);
+}
+
+void pass_measure(tuile_t *t, size_t carried_bytes) {
+    const size_t used = (size_t)((uint8_t *)(t->vertices + t->vertex_count) - (uint8_t *)t) + carried_bytes +
+                        (size_t)t->record_count * t->record_bytes;
+    if (used > t->stats.peak_bytes) { t->stats.peak_bytes = (uint32_t)used; }
+}
+
+static void rows_restart(tuile_t *t, uint32_t row) {
+    t->row = (uint16_t)row;
+    t->row_ready = false;
+    t->states = (uint8_t *)(t->vertices + t->vertex_count);
+    t->stream = t->stream_end = t->states;
+    t->uncarried = RECORD_NONE;
+}
+
+/* ---- what would be enough ---- */
+
+/* Takes the place of draw_now: the block that would hold this face for the whole pass. */
+static void count_face(tuile_t *t, uint32_t number) {
+    const record_t *record = frame_record(t, number);
+    uint32_t slots = 0;
+    if (!frame_record_is_triangle(record)) {
+        const uint32_t corners = frame_record_ring(t, record).count;
+        slots = 1 + corners + (corners + 7) / 8;
+    } else if (record->v0 >= t->cluster_end) {
+        slots = 3; /* clipped: vertices of its own */
+    }
+    t->wanted_bytes += t->record_bytes + slots * sizeof(vertex_t);
+    t->counted++;
+}
+
+/* A tile whose faces do not fit: counts them. */
+static int pass_want(tuile_t *t, uint32_t row, uint32_t column) {
+    const uint32_t vertices = t->stats.vertices;
+    pass_set(t, row, row + 1, column, true);
+    t->immediate = true;
+    t->draw_now = count_face;
+    t->counted = 0;
+    t->wanted_bytes = (size_t)((uint8_t *)t->vertices - (uint8_t *)t) + 64;
+    const int result = bin_pass(t);
+    t->pass_valid = false;
+    if (result < 0) { return result; }
+    t->wanted_bytes += (size_t)(t->stats.vertices - vertices) * sizeof(vertex_t);
+    if (t->method->room_bytes) { t->wanted_bytes += t->method->room_bytes(&t->config, t->counted); }
+    if (t->wanted_bytes <= t->stats.size_bytes) { t->wanted_bytes = (size_t)t->stats.size_bytes + t->stats.size_bytes / 8; }
+    return TUILE_ERROR_MEMORY;
+}
+
+/* ---- passes ---- */
+
+/* A pass did not fit: the next one is tried with fewer rows, and in the end with one tile only. False when that has been tried. */
+static bool pass_shrink(tuile_t *t) {
+    t->pass_valid = false;
+    if (t->narrow) { return false; }
+    t->rows_hint = (uint16_t)((t->pass_end - t->pass_first) / 2);
+    return t->rows_hint > 0 || t->method->draw_now != NULL || t->tile_columns > 1;
+}
+
+/* A pass that holds tile `column` of row `row`. */
+static int pass_begin(tuile_t *t, uint32_t row, uint32_t column) {
+    const uint32_t end = (uint32_t)(t->config.row_end + t->config.tile_height - 1) / t->config.tile_height;
+    uint32_t rows;
+    for (;;) {
+        rows = t->rows_hint;
+        if (rows > end - row) { rows = end > row ? end - row : 1; }
+        pass_set(t, row, row + (rows ? rows : 1), column, rows == 0);
+        if (t->immediate) {
+            t->pass_valid = true;
+            return FRAME_OK; /* each tile runs its own */
+        }
+        const int result = t->method->gather(t);
+        if (result < 0) { return result; }
+        if (result == FRAME_OK) { break; }
+        if (!pass_shrink(t)) { return pass_want(t, row, column); }
+    }
+    pass_measure(t, 0);
+    /* What fitted with room to spare may be tried larger next time. */
+    const size_t total = (size_t)t->vertex_limit * sizeof(vertex_t);
+    const size_t used = t->vertex_count * sizeof(vertex_t) + (size_t)t->record_count * t->record_bytes;
+    t->rows_hint = (uint16_t)rows;
+    if (used <= total / 2 && !t->shrunk) {
+        const uint32_t more = rows ? rows * 2 : 1;
+        t->rows_hint = (uint16_t)(more > t->tile_rows ? t->tile_rows : more);
+    }
+    t->pass_valid = true;
+    rows_restart(t, row);
+    return TUILE_OK;
+}
+
+/* ---- tiles ---- */
+
+void frame_fill_words(void *bytes, uint32_t word, size_t size_bytes) {
+    typedef struct block {
+        uint32_t word[4];
+    } block_t;
+    const block_t block = {{word, word, word, word}};
+    block_t *at = bytes;
+    for (size_t left = (size_bytes + 63) / 64; left; left--, at += 4) {
+        at[0] = block;
+        at[1] = block;
+        at[2] = block;
+        at[3] = block;
+    }
+}
+
+static void tile_clear(tuile_t *t) {
+    const bool ids = t->config.format == TUILE_FACE_IDS;
+    const size_t pixels = (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top);
+    if (t->method->clear) { t->method->clear(t); }
+    frame_fill_words(t->tile.colour, ids ? 0 : t->background * 0x10001u, pixels * TUILE_FORMAT_BYTES(t->config.format));
+}
+
+static int draw_immediate(tuile_t *t, uint32_t row, uint32_t column) {
+    pass_set(t, row, row + 1, column, true);
+    tile_clear(t);
+    const int result = t->method->gather(t);
+    t->stats.tiles_narrow++;
+    t->stats.peak_bytes = t->stats.size_bytes;
+    return result > 0 ? TUILE_ERROR_MEMORY : result;
+}
+
+int pass_draw(tuile_t *t, uint32_t row, uint32_t column) {
+    for (;;) {
+        if (!pass_covers(t, row, column)) {
+            const int error = pass_begin(t, row, column);
+            if (error) { return error; }
+        }
+        if (t->immediate) { return draw_immediate(t, row, column); }
+        if (row < t->row) {
+            bin_again(t, (uint16_t)row);
+            rows_restart(t, row);
+        }
+        tile_clear(t);
+        const int result = t->method->draw_tile(t, (uint16_t)row);
+        if (result <= 0) {
+            pass_measure(t, (size_t)(t->stream_end - t->stream));
+            t->stats.tiles_narrow += t->narrow;
+            return result;
+        }
+        t->shrunk = true;
+        if (!pass_shrink(t)) { return pass_want(t, row, column); }
+    }
+}

@@ -1,0 +1,321 @@
+/* The faces of a tile row in the order of their records, and what of them is carried from row to row. Two methods draw by it: the
+ * z-buffer with tested spans, and whoever has put the records in the order of the painter, with painted ones. `tested` is a
+ * constant wherever these functions are called, so that each gets loops of its own.
+ *
+ * A tile row meets those faces whose bucket it is and those carried from the row above. Both lists are sorted by record, so one
+ * merge gives the order.
+ *
+ * One column (strips): a face is set up, drawn and, if it reaches beyond the strip, its state is written to the stream. The stream
+ * is moved to the end of the free room first, so that the new one can grow where the old one was. Several columns: all faces of the
+ * row enter the stream before the first tile is drawn; each tile draws from copies, so that tiles may come in any order. Behind the
+ * last tile the states that reach further are moved on to the next row.
+ */
+#ifndef TUILE_VISIBILITY_ROWS_H
+#define TUILE_VISIBILITY_ROWS_H
+
+#include "../frame/frame.h"
+
+#include "../memory.h"
+
+/* A state in the stream, seen as any of its kinds. */
+typedef union state {
+    fill_head_t head;
+    triangle_t triangle;
+    polygon_t polygon;
+} state_t;
+
+/* Colour or id. */
+static inline uint32_t face_value(const tuile_t *t, const record_t *record) {
+    if (t->span_kind == SPAN_IDS) { return frame_record_id(record); }
+    return resolve_lit(t->config.format, frame_material(t, record->material), record->light);
+}
+
+/* False when the face covers no row from `row` on. */
+TUILE_INLINE bool state_start(tuile_t *t, state_t *state, const record_t *record, uint32_t number, int32_t row, bool tested) {
+    t->stats.faces_setup++;
+    if (TUILE_LIKELY(frame_record_is_triangle(record))) {
+        const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+        if (tested) {
+            triangle_start(&state->triangle, v0, v1, v2, row, t->span_kind == SPAN_GOURAUD);
+        } else {
+            triangle_paint_start(&state->triangle, v0, v1, v2, row, t->span_kind == SPAN_GOURAUD);
+        }
+        state->head.size_bytes = (sizeof(triangle_t) + 7u) & ~7u;
+        state->triangle.value = t->span_kind == SPAN_GOURAUD ? record->material : face_value(t, record);
+    } else {
+        const polygon_ring_t ring = frame_record_ring(t, record);
+        if (!(tested ? polygon_start(&state->polygon, &ring, row) : polygon_paint_start(&state->polygon, &ring, row))) {
+            return false;
+        }
+        state->polygon.value = face_value(t, record);
+        state->head.size_bytes = (uint16_t)((state->head.size_bytes + 7u) & ~7u);
+    }
+    state->head.record = (uint16_t)number;
+    return true;
+}
+
+/* Draws what of the face lies in the tile. True when the face reaches below it. */
+TUILE_INLINE bool state_fill(tuile_t *t, state_t *state, const record_t *record, bool tested) {
+    const bool last = t->config.tie == TUILE_TIE_LAST;
+    if (TUILE_LIKELY(frame_record_is_triangle(record))) {
+        triangle_t *triangle = &state->triangle;
+        const uint16_t *ramp = t->span_kind == SPAN_GOURAUD ? frame_ramp(t, triangle->value) : NULL;
+        if (tested) {
+            triangle_fill(triangle, &t->tile, t->span_kind, last, ramp);
+        } else {
+            triangle_paint(triangle, &t->tile, t->span_kind, ramp);
+        }
+        return triangle->row < triangle->head.row_end;
+    }
+    const polygon_ring_t ring = frame_record_ring(t, record);
+    const span_kind_t kind = t->span_kind == SPAN_IDS ? SPAN_IDS : SPAN_FLAT;
+    if (tested) {
+        polygon_fill(&state->polygon, &ring, &t->tile, kind, last);
+    } else {
+        polygon_paint(&state->polygon, &ring, &t->tile, kind);
+    }
+    return state->polygon.row < state->head.row_end;
+}
+
+static inline bool state_skip(const tuile_t *t, state_t *state, int32_t row) {
+    const record_t *record = frame_record(t, state->head.record);
+    if (frame_record_is_triangle(record)) {
+        triangle_skip(&state->triangle, row);
+        return state->triangle.row < state->head.row_end;
+    }
+    const polygon_ring_t ring = frame_record_ring(t, record);
+    polygon_skip(&state->polygon, &ring, row);
+    return state->polygon.row < state->head.row_end;
+}
+
+static inline bool state_in_columns(const tuile_t *t, const state_t *state) {
+    return state->head.left < t->tile.right && state->head.right > t->tile.left;
+}
+
+/* ---- lists of records ---- */
+
+static inline uint16_t list_reverse(const tuile_t *t, uint16_t list) {
+    uint16_t reversed = RECORD_NONE;
+    while (list != RECORD_NONE) {
+        record_t *record = frame_record(t, list - 1u);
+        const uint16_t next = record->next;
+        record->next = reversed;
+        reversed = list;
+        list = next;
+    }
+    return reversed;
+}
+
+/* Both sorted; so is the result. */
+static inline uint16_t list_merge(const tuile_t *t, uint16_t a, uint16_t b) {
+    uint16_t merged = RECORD_NONE, *end = &merged;
+    while (a != RECORD_NONE && b != RECORD_NONE) {
+        uint16_t *less = a < b ? &a : &b;
+        *end = *less;
+        end = &frame_record(t, *less - 1u)->next;
+        *less = *end;
+    }
+    *end = a != RECORD_NONE ? a : b;
+    return merged;
+}
+
+/* ---- rows of tiles ---- */
+
+/* Walks the faces of the current row in order: those of `list` and those of the old stream. */
+typedef struct walk {
+    uint16_t list;            /* records to be set up */
+    uint8_t *old, *old_end;   /* states carried from above */
+    uint8_t *out;             /* where the new stream grows */
+    uint16_t left, *left_end; /* records that go on without a state */
+} walk_t;
+
+static inline void walk_begin(tuile_t *t, walk_t *walk) {
+    uint8_t *limit = (uint8_t *)frame_record(t, t->record_count) + t->record_bytes; /* first byte of the last record */
+    limit -= (uintptr_t)limit & 7u;
+    const size_t size = (size_t)(t->stream_end - t->stream);
+    walk->list = list_merge(t, list_reverse(t, t->buckets[t->row]), t->uncarried);
+    t->buckets[t->row] = RECORD_NONE;
+    walk->old = limit - size;
+    walk->old_end = limit;
+    if (size) { memmove(walk->old, t->stream, size); }
+    walk->out = t->states;
+    walk->left = RECORD_NONE;
+    walk->left_end = NULL;
+}
+
+static inline void walk_end(tuile_t *t, walk_t *walk) {
+    t->stream = t->states;
+    t->stream_end = walk->out;
+    t->uncarried = walk->left;
+}
+
+/* Appends a state to the new stream; a record that finds no room there goes into the list of those without one. */
+static inline void walk_keep(tuile_t *t, walk_t *walk, const state_t *state) {
+    const size_t size = state->head.size_bytes;
+    if ((size_t)(walk->old - walk->out) >= size) {
+        if ((const uint8_t *)state != walk->out) { memmove(walk->out, state, size); }
+        walk->out += size;
+        return;
+    }
+    const uint16_t number = (uint16_t)(state->head.record + 1u);
+    record_t *record = frame_record(t, state->head.record);
+    record->next = RECORD_NONE;
+    if (walk->left_end) {
+        *walk->left_end = number;
+    } else {
+        walk->left = number;
+    }
+    walk->left_end = &record->next;
+    t->stats.faces_resumed++;
+}
+
+/* The next state in order, set up in `local` or lying in the old stream, and its record; NULL at the end. A state stays where it is
+ * until the next call, since the new stream never overtakes the old one. */
+TUILE_INLINE state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_t row, const record_t **record,
+                               bool tested) {
+    for (;;) {
+        state_t *carried = (state_t *)(void *)walk->old;
+        if (walk->list != RECORD_NONE && (walk->old == walk->old_end || walk->list - 1u < carried->head.record)) {
+            const uint32_t number = walk->list - 1u;
+            *record = frame_record(t, number);
+            walk->list = (*record)->next;
+            if (state_start(t, local, *record, number, row, tested)) { return local; }
+            continue;
+        }
+        if (walk->old == walk->old_end) { return NULL; }
+        walk->old += carried->head.size_bytes;
+        *record = frame_record(t, carried->head.record);
+        return carried;
+    }
+}
+
+/* All faces of the row through the only column. */
+TUILE_INLINE void row_draw(tuile_t *t, int32_t top, bool tested) {
+    walk_t walk;
+    state_t local, *state;
+    const record_t *record;
+    walk_begin(t, &walk);
+    while ((state = walk_next(t, &walk, &local, top, &record, tested)) != NULL) {
+        if (state_fill(t, state, record, tested)) { walk_keep(t, &walk, state); }
+    }
+    walk_end(t, &walk);
+}
+
+/* All faces past the row, undrawn. */
+TUILE_INLINE void row_pass_by(tuile_t *t, int32_t top, int32_t bottom, bool tested) {
+    walk_t walk;
+    state_t local, *state;
+    const record_t *record;
+    walk_begin(t, &walk);
+    while ((state = walk_next(t, &walk, &local, top, &record, tested)) != NULL) {
+        if (state_skip(t, state, bottom)) { walk_keep(t, &walk, state); }
+    }
+    walk_end(t, &walk);
+}
+
+/* All faces of the row into the stream. */
+TUILE_INLINE void row_gather(tuile_t *t, int32_t top, bool tested) {
+    walk_t walk;
+    state_t local, *state;
+    const record_t *record;
+    walk_begin(t, &walk);
+    while ((state = walk_next(t, &walk, &local, top, &record, tested)) != NULL) {
+        walk_keep(t, &walk, state);
+    }
+    walk_end(t, &walk);
+}
+
+/* One of several columns. The faces without a state are set up again for each. */
+TUILE_INLINE void column_draw(tuile_t *t, int32_t top, bool tested) {
+    const uint8_t *at = t->stream;
+    uint16_t list = t->uncarried;
+    state_t local;
+    while (at < t->stream_end || list != RECORD_NONE) {
+        const state_t *carried = (const state_t *)(const void *)at;
+        if (list != RECORD_NONE && (at >= t->stream_end || list - 1u < carried->head.record)) {
+            const uint32_t number = list - 1u;
+            const record_t *record = frame_record(t, number);
+            list = record->next;
+            if (state_start(t, &local, record, number, top, tested) && state_in_columns(t, &local)) { (void)state_fill(t, &local, record, tested); }
+            continue;
+        }
+        at += carried->head.size_bytes;
+        if (!state_in_columns(t, carried)) { continue; }
+        const record_t *record = frame_record(t, carried->head.record);
+        if (frame_record_is_triangle(record)) {
+            local.triangle = carried->triangle;
+        } else {
+            memcpy(&local, carried, carried->head.size_bytes);
+        }
+        (void)state_fill(t, &local, record, tested);
+    }
+}
+
+/* Behind the last column: states move on to the next row, in place. */
+static inline void row_advance(tuile_t *t, int32_t bottom) {
+    uint8_t *out = t->stream;
+    for (uint8_t *at = t->stream; at < t->stream_end;) {
+        state_t *state = (state_t *)(void *)at;
+        const uint16_t size = state->head.size_bytes;
+        at += size;
+        if (state->head.row_end > bottom && state_skip(t, state, bottom)) {
+            if ((uint8_t *)state != out) { memmove(out, state, size); }
+            out += size;
+        }
+    }
+    t->stream_end = out;
+
+    uint16_t kept = RECORD_NONE, *end = &kept;
+    for (uint16_t list = t->uncarried; list != RECORD_NONE;) {
+        const uint16_t number = list;
+        record_t *record = frame_record(t, number - 1u);
+        int32_t first, row_end;
+        list = record->next;
+        frame_record_rows(t, record, &first, &row_end);
+        if (row_end > bottom) {
+            *end = number;
+            end = &record->next;
+        }
+    }
+    *end = RECORD_NONE;
+    t->uncarried = kept;
+}
+
+static inline int32_t row_top(const tuile_t *t, uint16_t row) { return row * t->config.tile_height; }
+
+static inline int32_t row_bottom(const tuile_t *t, uint16_t row) {
+    const int32_t bottom = row_top(t, row) + t->config.tile_height;
+    return bottom < t->config.height ? bottom : t->config.height;
+}
+
+/* A face that goes away after the call. */
+TUILE_INLINE void rows_draw_now(tuile_t *t, uint32_t number, bool tested) {
+    state_t local;
+    const record_t *record = frame_record(t, number);
+    if (state_start(t, &local, record, number, t->tile.top, tested) && state_in_columns(t, &local)) { (void)state_fill(t, &local, record, tested); }
+}
+
+/* All faces of tile row `row` into the tile. */
+TUILE_INLINE void rows_draw_tile(tuile_t *t, uint16_t row, bool tested) {
+    while (t->row < row) {
+        if (t->row_ready) {
+            row_advance(t, row_bottom(t, t->row));
+            t->row_ready = false;
+        } else {
+            row_pass_by(t, row_top(t, t->row), row_bottom(t, t->row), tested);
+        }
+        t->row++;
+    }
+    if (t->tile_columns == 1) {
+        row_draw(t, row_top(t, row), tested);
+        t->row++;
+        return;
+    }
+    if (!t->row_ready) {
+        row_gather(t, row_top(t, row), tested);
+        t->row_ready = true;
+    }
+    column_draw(t, row_top(t, row), tested);
+}
+
+#endif
