@@ -9,11 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char usage[] = "Usage: tuile faces [--method zbuffer] [--tile WxH] [--memory 16K] SCENE\n"
-                            "\n"
-                            "Prints the ID of the face seen at each pixel, one row of the picture a line; 0 is the background. "
-                            "SCENE is a text scene, - for\n"
-                            "standard input.\n";
+static const char usage[] =
+    "Usage: tuile faces [--method zbuffer|scanline|warnock|painter|tree] [--tile WxH] [--memory 16K] SCENE\n"
+    "\n"
+    "Prints the ID of the face seen at each pixel, one row of the picture a line; 0 is the background. "
+    "SCENE is a text scene, - for\n"
+    "standard input.\n";
 
 typedef struct faces {
     scene_text_t scene;
@@ -68,6 +69,9 @@ static int draw(faces_t *faces, const tuile_config_t *wanted, size_t memory_byte
         return command_fail("--memory: %zu bytes are too few, this scene wants %zu", memory_bytes, least);
     }
     if (result == 0) { result = ids_draw(renderer, &scene, faces->ids); }
+    if (result == TUILE_ERROR_MEMORY) {
+        return command_fail("--memory: %zu bytes are too few for this method; %zu would do", memory_bytes, tuile_wanted(renderer));
+    }
     if (result < 0) { return command_fail("%s", tuile_error_text(result)); }
     for (unsigned y = 0; y < config.height; y++) {
         for (unsigned x = 0; x < config.width; x++) {
@@ -81,7 +85,6 @@ static int draw(faces_t *faces, const tuile_config_t *wanted, size_t memory_byte
 }
 
 int command_faces(int count, char **arguments) {
-    static const char *const methods[] = {"zbuffer", NULL};
     const char *path = NULL, *argument;
     options_t options;
     sim_error_t error = {""};
@@ -96,7 +99,7 @@ int command_faces(int count, char **arguments) {
             if (path) { return command_fail("faces: one scene at a time, but got %s and %s", path, argument), EXIT_USAGE; }
             path = argument;
         } else if (strcmp(argument, "--method") == 0) {
-            (void)options_choice(&options, &method, methods);
+            if (options_choice(&options, &method, options_methods)) { config.method = (uint8_t)method; }
         } else if (strcmp(argument, "--memory") == 0) {
             (void)options_size(&options, &memory_bytes);
         } else if (strcmp(argument, "--tile") == 0) {

@@ -25,7 +25,7 @@ static const char usage[] =
     "  --panel ili9341          the panel (240x320)\n"
     "  --rotate 0|90|180|270    how the panel is held\n"
     "  --clock HZ               clock of the bus for pixels, like 40M; 0 asks for the panel's usual one\n"
-    "  --method zbuffer         hidden-surface method\n"
+    "  --method M               hidden-surface method: zbuffer (default), scanline, warnock, painter, tree\n"
     "  --shade flat|gouraud     flat by default\n"
     "  --memory 16K|auto        the renderer's memory; auto is enough for one pass\n"
     "  --tile WxH               tile size in pixels; by default whole rows, as many as suit the memory\n"
@@ -137,7 +137,7 @@ static bool parse_clock(options_t *options, size_t *hz) {
 
 static int parse(render_t *r, int count, char **arguments) {
     static const char *const panels[] = {"ili9341", NULL}, *const rotations[] = {"0", "90", "180", "270", NULL};
-    static const char *const methods[] = {"zbuffer", NULL}, *const shades[] = {"flat", "gouraud", NULL};
+    static const char *const shades[] = {"flat", "gouraud", NULL};
     view_options_t *v = &r->view_options;
     options_t options;
     const char *argument;
@@ -160,7 +160,7 @@ static int parse(render_t *r, int count, char **arguments) {
         } else if (strcmp(argument, "--clock") == 0) {
             (void)parse_clock(&options, &r->clock_hz);
         } else if (strcmp(argument, "--method") == 0) {
-            if (options_choice(&options, &choice, methods)) { r->config.method = (uint8_t)choice; }
+            if (options_choice(&options, &choice, options_methods)) { r->config.method = (uint8_t)choice; }
         } else if (strcmp(argument, "--shade") == 0) {
             if (options_choice(&options, &choice, shades)) { r->config.shade = (uint8_t)choice; }
         } else if (strcmp(argument, "--memory") == 0) {
@@ -394,6 +394,10 @@ static int draw_frame(render_t *r, unsigned frame) {
     memset(&r->bus.counts, 0, sizeof r->bus.counts);
     const int result = tuile_stream_frame(r->renderer, &r->view.scene, &r->display, &r->stats);
     if (result) {
+        if (result == TUILE_ERROR_MEMORY) {
+            return command_fail("frame %u: --memory: %u bytes are too few for this method; %zu would do", frame,
+                                r->stats.size_bytes, tuile_wanted(r->renderer));
+        }
         const char *detail = r->bus.error.text[0] ? r->bus.error.text : r->chip->fault.text;
         return command_fail("frame %u: %s%s%s", frame, tuile_stream_error_text(result), detail[0] ? ": " : "", detail);
     }

@@ -147,3 +147,5 @@ void options_unknown(options_t *options) {
     (void)command_fail("unknown option %s", options->name);
     (void)fail(options);
 }
+
+const char *const options_methods[] = {"zbuffer", "scanline", "warnock", "painter", "tree", NULL};

@@ -42,4 +42,7 @@ bool options_tile(options_t *options, uint16_t *width, uint16_t *height);
 /* "unknown option", as a failure. */
 void options_unknown(options_t *options);
 
+/* The values of --method, in the order of tuile_method_t. */
+extern const char *const options_methods[];
+
 #endif

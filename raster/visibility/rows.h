@@ -171,8 +171,7 @@ static inline void walk_keep(tuile_t *t, walk_t *walk, const state_t *state) {
 
 /* The next state in order, set up in `local` or lying in the old stream, and its record; NULL at the end. A state stays where it is
  * until the next call, since the new stream never overtakes the old one. */
-TUILE_INLINE state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_t row, const record_t **record,
-                               bool tested) {
+TUILE_INLINE state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_t row, const record_t **record, bool tested) {
     for (;;) {
         state_t *carried = (state_t *)(void *)walk->old;
         if (walk->list != RECORD_NONE && (walk->old == walk->old_end || walk->list - 1u < carried->head.record)) {
@@ -236,7 +235,9 @@ TUILE_INLINE void column_draw(tuile_t *t, int32_t top, bool tested) {
             const uint32_t number = list - 1u;
             const record_t *record = frame_record(t, number);
             list = record->next;
-            if (state_start(t, &local, record, number, top, tested) && state_in_columns(t, &local)) { (void)state_fill(t, &local, record, tested); }
+            if (state_start(t, &local, record, number, top, tested) && state_in_columns(t, &local)) {
+                (void)state_fill(t, &local, record, tested);
+            }
             continue;
         }
         at += carried->head.size_bytes;
@@ -292,7 +293,9 @@ static inline int32_t row_bottom(const tuile_t *t, uint16_t row) {
 TUILE_INLINE void rows_draw_now(tuile_t *t, uint32_t number, bool tested) {
     state_t local;
     const record_t *record = frame_record(t, number);
-    if (state_start(t, &local, record, number, t->tile.top, tested) && state_in_columns(t, &local)) { (void)state_fill(t, &local, record, tested); }
+    if (state_start(t, &local, record, number, t->tile.top, tested) && state_in_columns(t, &local)) {
+        (void)state_fill(t, &local, record, tested);
+    }
 }
 
 /* All faces of tile row `row` into the tile. */
