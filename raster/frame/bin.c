@@ -1,352 +1,103 @@
-/* From clusters to records: vertex stage, culling, clipping, and the bucket of the tile row where each face starts. */
+/* From clusters to faces: culling of whole clusters and the vertex stage. */
 #include "../tune.h"
 
 #include "frame.h"
 
-typedef struct cluster {
-    const uint8_t *bytes; /* in the model's table */
-    const uint8_t *faces;
-    const int16_t *positions;
-    const int8_t *face_normals; /* flat shading, else NULL */
-    vertex_t *vertices;
-    bool any_outside;    /* some vertex needs clipping */
-    uint32_t first_face; /* id - 1 of its first face */
-} cluster_t;
-
-/* Twice the signed area in (1/16 px)^2, positive for counter-clockwise as seen (the window's y points down). Inside the guard
- * band differences are below 2^15, so the products are below 2^30. */
-TUILE_INLINE int32_t signed_area(const vertex_t *a, const vertex_t *b, const vertex_t *c) {
-    const int32_t x1 = b->x - a->x, y1 = b->y - a->y, x2 = c->x - a->x, y2 = c->y - a->y;
-    return x2 * y1 - x1 * y2;
-}
-
 /* Vertices that still fit below the records. */
-TUILE_INLINE uint32_t slots_left(const tuile_t *t) {
+uint32_t frame_slots_left(const tuile_t *t) {
     const uint8_t *low = t->arena_end - (size_t)t->record_count * t->record_bytes;
     const uint32_t limit = (uint32_t)((size_t)(low - (uint8_t *)t->vertices) / sizeof(vertex_t));
     return (limit < t->vertex_limit ? limit : t->vertex_limit) - t->vertex_count;
 }
 
-/* A slot for one record, NULL when the arena is full. */
-TUILE_INLINE record_t *record_claim(tuile_t *t) {
-    record_t *record = frame_record(t, t->record_count);
-    if (TUILE_UNLIKELY((uint8_t *)record < (uint8_t *)(t->vertices + t->vertex_count) || t->record_count >= UINT16_MAX - 1)) {
-        return NULL;
-    }
-    return record;
-}
-
-/* Hangs the claimed record into the bucket of its first row, or draws it at once. */
-TUILE_INLINE void record_emit(tuile_t *t, record_t *record, int32_t row, uint32_t id) {
-    if (t->record_bytes == sizeof(record_id_t)) { ((record_id_t *)(void *)record)->id = id + 1; }
-    t->stats.faces_binned++;
-    if (TUILE_UNLIKELY(t->immediate)) {
-        t->draw_now(t, t->record_count);
-        return;
-    }
-    if (row < t->region.top) { row = t->region.top; }
-    uint16_t *bucket = &t->buckets[(uint32_t)row / t->config.tile_height];
-    record->next = *bucket;
-    *bucket = (uint16_t)++t->record_count;
-}
-
-/* The face covers a pixel centre's row and column of the region, as far as its bounding box tells. */
-TUILE_INLINE bool box_in_region(const tuile_t *t, int32_t left, int32_t right, int32_t top, int32_t bottom) {
-    const int32_t row = edge_row(top), row_end = edge_row(bottom), column = edge_row(left), column_end = edge_row(right);
-    return row < row_end && column < column_end && row < t->region.bottom && row_end > t->region.top && column < t->region.right &&
-           column_end > t->region.left;
-}
-
-TUILE_INLINE int32_t least3(int32_t a, int32_t b, int32_t c) { return a < b ? (a < c ? a : c) : (b < c ? b : c); }
-TUILE_INLINE int32_t most3(int32_t a, int32_t b, int32_t c) { return a > b ? (a > c ? a : c) : (b > c ? b : c); }
-
-static uint8_t flat_light(const tuile_t *t, const int8_t *normal, bool back) {
-    const int32_t sign = back ? -1 : 1;
-    return vertex_light(&t->transform, sign * normal[0], sign * normal[1], sign * normal[2]);
-}
-
-/* One triangle, all corners in the window's guard band: vertices a, b and c behind slot `base`. */
-TUILE_INLINE int bin_triangle(tuile_t *t, uint32_t base, uint32_t a, uint32_t b, uint32_t c, uint8_t material, const int8_t *normal,
-                              uint32_t id) {
-    const vertex_t *v = t->vertices + base, *va = &v[a], *vb = &v[b], *vc = &v[c];
-    const int32_t area = signed_area(va, vb, vc);
-    bool back = false;
-    if (area <= 0) {
-        if (area == 0) {
-            t->stats.faces_degenerate++;
-            return FRAME_OK;
-        }
-        if (TUILE_LIKELY(!t->transform.two_sided)) {
-            t->stats.faces_back++;
-            return FRAME_OK;
-        }
-        const uint32_t swap = b;
-        b = c;
-        c = swap;
-        vb = &v[b];
-        vc = &v[c];
-        back = true;
-    }
-    /* The topmost corner becomes the first; the order round the face stays. */
-    int32_t top = va->y, bottom;
-    if (vb->y < top && vb->y <= vc->y) {
-        const uint32_t first = a;
-        a = b, b = c, c = first;
-        bottom = vc->y > top ? vc->y : top;
-        top = vb->y;
-    } else if (vc->y < top) {
-        const uint32_t last = c;
-        c = b, b = a, a = last;
-        bottom = vb->y > top ? vb->y : top;
-        top = vc->y;
-    } else {
-        bottom = vb->y > vc->y ? vb->y : vc->y;
-    }
-    if (!box_in_region(t, least3(va->x, vb->x, vc->x), most3(va->x, vb->x, vc->x), top, bottom)) {
-        t->stats.faces_outside++;
-        return FRAME_OK;
-    }
-    record_t *record = record_claim(t);
-    if (TUILE_UNLIKELY(record == NULL)) { return FRAME_FULL; }
-    record->v0 = (uint16_t)(base + a);
-    record->d1 = (int8_t)(b - a);
-    record->d2 = (int8_t)(c - a);
-    record->material = (uint8_t)(material + t->material_base);
-    record->light = normal ? flat_light(t, normal, back) : 0;
-    record_emit(t, record, edge_row(top), id);
-    return FRAME_OK;
-}
-
-/* The same for the rarer callers, so that it is not inlined once more for each. */
-static TUILE_NOINLINE int bin_one_triangle(tuile_t *t, uint32_t base, uint32_t a, uint32_t b, uint32_t c, uint8_t material,
-                                           const int8_t *normal, uint32_t id) {
-    return bin_triangle(t, base, a, b, c, material, normal, id);
-}
-
-/* A polygon of more than three corners. listed: corners are relative to `base`; else they follow on one another from base. */
-static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *base, uint8_t material, const int8_t *normal,
-                       uint32_t id) {
-    int64_t area = 0;
-    int32_t left = INT32_MAX, right = INT32_MIN, top = INT32_MAX, bottom = INT32_MIN;
-    const vertex_t *v0 = polygon_ring_vertex(ring, 0);
-    for (uint32_t i = 0; i < ring->count; i++) {
-        const uint32_t j = i + 1 == ring->count ? 0 : i + 1;
-        const vertex_t *a = polygon_ring_vertex(ring, i), *b = polygon_ring_vertex(ring, j);
-        area += (int64_t)(b->x - v0->x) * (a->y - v0->y) - (int64_t)(a->x - v0->x) * (b->y - v0->y);
-        left = a->x < left ? a->x : left;
-        right = a->x > right ? a->x : right;
-        top = a->y < top ? a->y : top;
-        bottom = a->y > bottom ? a->y : bottom;
-    }
-    if (area < 0 && !t->transform.two_sided) {
-        t->stats.faces_back++;
-        return FRAME_OK;
-    }
-    if (!box_in_region(t, left, right, top, bottom)) {
-        t->stats.faces_outside++;
-        return FRAME_OK;
-    }
-    /* An area of 0 may still cover pixels (a bow tie), so only a box without area is degenerate, and that was dropped above. */
-    const uint32_t slots = 1 + (ring->corners ? (ring->count + 7) / 8 : 0);
-    if (slots > slots_left(t)) { return FRAME_FULL; }
-    polygon_slot_t *slot = (polygon_slot_t *)(void *)(t->vertices + t->vertex_count);
-    t->vertex_count += slots;
-    record_t *record = record_claim(t);
-    if (record == NULL) { return FRAME_FULL; }
-    *slot = (polygon_slot_t){(uint16_t)ring->count, (uint16_t)(base - t->vertices), ring->corners != NULL, 0};
-    if (ring->corners) {
-        uint8_t *list = (uint8_t *)(slot + 1);
-        for (uint32_t i = 0; i < ring->count; i++) {
-            list[i] = ring->corners[i];
-        }
-    }
-    *record = (record_t){0,
-                         (uint16_t)((vertex_t *)(void *)slot - t->vertices),
-                         0,
-                         0,
-                         (uint8_t)(material + t->material_base),
-                         normal ? flat_light(t, normal, area < 0) : (uint8_t)v0->depth_light};
-    record_emit(t, record, edge_row(top), id);
-    if (t->immediate) { t->vertex_count -= slots; }
-    return FRAME_OK;
-}
-
-/* A face of which some corner is beyond near plane, far plane or guard band. */
-static TUILE_NOINLINE int bin_clipped(tuile_t *t, const cluster_t *cluster, const uint8_t *corners, unsigned count,
-                                      uint8_t material, const int8_t *normal, uint32_t id) {
-    const clip_face_t face = {cluster->positions, cluster->vertices, corners, count};
-    vertex_t *out = t->vertices + t->vertex_count;
-    const uint32_t mark = t->vertex_count;
-    const int left = clip_polygon(&t->transform, &face, out, slots_left(t));
-    int result = FRAME_OK;
-
-    if (left < 0) { return FRAME_FULL; }
-    t->stats.faces_clipped++;
-    if (left == 0) {
-        t->stats.faces_clipped_away++;
-        return FRAME_OK;
-    }
-    t->vertex_count += (uint32_t)left;
-    const uint32_t binned = t->record_count;
-    bool lit_alike = true;
-    for (int i = 1; i < left; i++) {
-        lit_alike &= (uint8_t)out[i].depth_light == (uint8_t)out[0].depth_light;
-    }
-    if (left == 3) {
-        result = bin_one_triangle(t, mark, 0, 1, 2, material, normal, id);
-    } else if (normal == NULL && !lit_alike && left <= 100) {
-        for (uint32_t i = 1; i + 1 < (uint32_t)left && result == FRAME_OK; i++) {
-            result = bin_one_triangle(t, mark, 0, i, i + 1, material, NULL, id);
-        }
-    } else {
-        const polygon_ring_t ring = {out, NULL, NULL, (uint32_t)left};
-        result = bin_polygon(t, &ring, out, material, normal, id);
-    }
-    if (t->immediate || (result == FRAME_OK && t->record_count == binned)) { t->vertex_count = mark; }
-    return result;
-}
-
-/* The loop that most faces go through: no vertex of the cluster is outside. */
-static int bin_triangles(tuile_t *t, const cluster_t *cluster, unsigned count) {
-    const uint8_t *face = cluster->faces;
-    const int8_t *normal = cluster->face_normals;
-    const unsigned normal_step = normal ? 3 : 0;
-    const uint32_t base = (uint32_t)(cluster->vertices - t->vertices);
-    for (unsigned f = 0; f < count; f++, face += 4, normal += normal_step) {
-        const int result = bin_triangle(t, base, face[0], face[1], face[2], face[3], normal, cluster->first_face + f);
-        if (TUILE_UNLIKELY(result != FRAME_OK)) { return result; }
-    }
-    return FRAME_OK;
-}
-
-static TUILE_NOINLINE int bin_outside_triangles(tuile_t *t, const cluster_t *cluster, unsigned count) {
-    const uint8_t *face = cluster->faces;
-    const uint32_t base = (uint32_t)(cluster->vertices - t->vertices);
-    for (unsigned f = 0; f < count; f++, face += 4) {
-        const vertex_t *v = cluster->vertices;
-        const int8_t *normal = cluster->face_normals ? cluster->face_normals + 3 * f : NULL;
-        const bool outside = v[face[0]].x == VERTEX_OUTSIDE || v[face[1]].x == VERTEX_OUTSIDE || v[face[2]].x == VERTEX_OUTSIDE;
-        const uint32_t id = cluster->first_face + f;
-        const int result = outside ? bin_clipped(t, cluster, face, 3, face[3], normal, id)
-                                   : bin_one_triangle(t, base, face[0], face[1], face[2], face[3], normal, id);
-        if (TUILE_UNLIKELY(result != FRAME_OK)) { return result; }
-    }
-    return FRAME_OK;
-}
-
-/* A triangle in a cluster whose vertices may lie too far apart for a record: it gets copies that stand together. */
-static int bin_far_triangle(tuile_t *t, const cluster_t *cluster, const uint8_t corners[3], uint8_t material, const int8_t *normal,
-                            uint32_t id) {
-    if (slots_left(t) < 3) { return FRAME_FULL; }
-    vertex_t *v = t->vertices + t->vertex_count;
-    const uint32_t binned = t->record_count;
-    for (unsigned i = 0; i < 3; i++) {
-        v[i] = cluster->vertices[corners[i]];
-    }
-    t->vertex_count += 3;
-    const int result = bin_one_triangle(t, t->vertex_count - 3, 0, 1, 2, material, normal, id);
-    if (t->record_count == binned) { t->vertex_count -= 3; }
-    return result;
-}
-
-static int bin_polygons(tuile_t *t, const cluster_t *cluster, unsigned count) {
-    const bool far_apart = cluster->bytes[CLUSTER_AT_VERTEX_COUNT] > MODEL_TRIANGLE_CLUSTER_VERTICES;
-    const uint8_t *face = cluster->faces;
-    const int8_t *normal = cluster->face_normals;
-    for (unsigned f = 0; f < count; f++, normal += normal ? 3 : 0) {
-        const unsigned corners = face[0];
-        const uint8_t flags = face[1], material = face[2], *corner = face + 3;
-        const uint32_t id = cluster->first_face + f;
-        bool outside = false, lit_alike = true;
-        int result = FRAME_OK;
-        for (unsigned i = 0; i < corners; i++) {
-            const vertex_t *v = &cluster->vertices[corner[i]];
-            outside |= v->x == VERTEX_OUTSIDE;
-            lit_alike &= (uint8_t)v->depth_light == (uint8_t)cluster->vertices[corner[0]].depth_light;
-        }
-        face += MODEL_POLYGON_BYTES(corners);
-        /* Gouraud: light is affine on a triangle only, so a smooth convex polygon is cut into a fan. */
-        const bool fan = normal == NULL && !lit_alike && flags & MODEL_FACE_CONVEX;
-        const unsigned parts = fan ? corners - 2 : 1;
-        for (unsigned p = 1; p <= parts && result == FRAME_OK; p++) {
-            const uint8_t part[3] = {corner[0], corner[p], corner[p + 1]};
-            const vertex_t *v = cluster->vertices;
-            if (outside) {
-                result = bin_clipped(t, cluster, fan ? part : corner, fan ? 3 : corners, material, normal, id);
-            } else if (far_apart && (fan || corners == 3)) {
-                result = bin_far_triangle(t, cluster, part, material, normal, id);
-            } else if (fan || corners == 3) {
-                result = bin_one_triangle(t, (uint32_t)(v - t->vertices), part[0], part[1], part[2], material, normal, id);
-            } else {
-                const polygon_ring_t ring = {v, corner, NULL, corners};
-                result = bin_polygon(t, &ring, v, material, normal, id);
-            }
-        }
-        if (result != FRAME_OK) { return result; }
-    }
-    return FRAME_OK;
-}
-
-static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
+int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster) {
     const tuile_model_t *model = t->instance->model;
     const unsigned vertices = bytes[CLUSTER_AT_VERTEX_COUNT], faces = model_u16(bytes + CLUSTER_AT_FACE_COUNT);
-    const uint32_t first_vertex = model_u32(bytes + CLUSTER_AT_FIRST_VERTEX), first_face = model_u32(bytes + CLUSTER_AT_FIRST_FACE);
-    const bool flat = t->config.shade == TUILE_FLAT;
+    const uint32_t first_vertex = model_u32(bytes + CLUSTER_AT_FIRST_VERTEX);
 
     t->stats.clusters++;
     if (cull_outside(&t->transform, bytes)) {
         t->stats.clusters_outside++;
-        return FRAME_OK;
+        return BIN_CULLED;
     }
     if (cull_faces_away(&t->transform, bytes)) {
         t->stats.clusters_facing_away++;
-        return FRAME_OK;
+        return BIN_CULLED;
     }
-    if (vertices > slots_left(t)) { return FRAME_FULL; }
-    const uint32_t mark = t->vertex_count, binned = t->record_count;
-    cluster_t cluster = {
-        bytes,
-        model->faces + model_u32(bytes + CLUSTER_AT_FACE_BYTES),
-        (const int16_t *)(const void *)model->positions + 3 * (size_t)first_vertex,
-        flat ? (const int8_t *)model->face_normals + 3 * (size_t)first_face : NULL,
-        t->vertices + mark,
-        false,
-        t->face_base + first_face,
-    };
-    cluster.any_outside =
-        vertex_stage(&t->transform, cluster.positions, flat ? NULL : (const int8_t *)model->normals + 3 * (size_t)first_vertex,
-                     vertices, cluster.vertices);
+    if (vertices > frame_slots_left(t)) { return FRAME_FULL; }
+    bin_cluster_at(t, bytes, t->vertex_count, cluster);
+    cluster->any_outside =
+        vertex_stage(&t->transform, (const int16_t *)(const void *)model->positions + 3 * (size_t)first_vertex,
+                     t->config.shade == TUILE_FLAT ? NULL : (const int8_t *)model->normals + 3 * (size_t)first_vertex, vertices,
+                     cluster->vertices);
     t->vertex_count += vertices;
     t->cluster_end = t->vertex_count;
     t->stats.vertices += vertices;
     t->stats.faces_tested += faces;
-    const int result = bytes[CLUSTER_AT_KIND] != MODEL_CLUSTER_TRIANGLES ? bin_polygons(t, &cluster, faces)
-                       : cluster.any_outside                             ? bin_outside_triangles(t, &cluster, faces)
-                                                                         : bin_triangles(t, &cluster, faces);
+    return FRAME_OK;
+}
+
+void bin_cluster_at(const tuile_t *t, const uint8_t *bytes, uint32_t slot, frame_cluster_t *cluster) {
+    const tuile_model_t *model = t->instance->model;
+    const uint32_t first_face = model_u32(bytes + CLUSTER_AT_FIRST_FACE);
+    cluster->bytes = bytes;
+    cluster->faces = model->faces + model_u32(bytes + CLUSTER_AT_FACE_BYTES);
+    cluster->positions = (const int16_t *)(const void *)model->positions + 3 * (size_t)model_u32(bytes + CLUSTER_AT_FIRST_VERTEX);
+    cluster->face_normals = t->config.shade == TUILE_FLAT ? (const int8_t *)model->face_normals + 3 * (size_t)first_face : NULL;
+    cluster->vertices = t->vertices + slot;
+    cluster->any_outside = true;
+    cluster->first_face = t->face_base + first_face;
+}
+
+static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
+    const uint32_t mark = t->vertex_count, binned = t->record_count;
+    frame_cluster_t cluster;
+    int result = bin_cluster_open(t, bytes, &cluster);
+    if (result != FRAME_OK) { return result == BIN_CULLED ? FRAME_OK : result; }
+    result = face_bin_all(t, &cluster);
     if (t->record_count == binned) { t->vertex_count = mark; } /* none of its faces is left: nor need its vertices be */
     return result;
 }
 
-int bin_pass(tuile_t *t) {
-    const tuile_scene_t *scene = t->scene;
+void bin_begin(tuile_t *t) {
     t->stats.passes++;
     t->vertex_count = t->record_count = 0;
     for (uint32_t row = t->pass_first; row < t->pass_end; row++) {
         t->buckets[row] = RECORD_NONE;
     }
+}
+
+int bin_instance_open(tuile_t *t, unsigned number) {
+    const tuile_scene_t *scene = t->scene;
+    t->instance = &scene->instances[number];
+    const int error = transform_make(&t->transform, scene, t->instance, t->config.width, t->config.height);
+    if (error) { return error; }
+    transform_region(&t->transform, &t->region);
+    t->material_base = (uint16_t)frame_material_base(scene, number);
+    t->sides = t->instance->two_sided ? SIDE_FRONT | SIDE_BACK : SIDE_FRONT;
     t->face_base = 0;
-    for (unsigned i = 0; i < scene->instance_count; i++) {
-        t->instance = &scene->instances[i];
-        const tuile_model_t *model = t->instance->model;
-        const int error = transform_make(&t->transform, scene, t->instance, t->config.width, t->config.height);
-        if (error) { return error; }
-        transform_region(&t->transform, &t->region);
-        t->material_base = (uint16_t)frame_material_base(scene, i);
-        for (uint32_t k = 0; k < model->cluster_count; k++) {
-            const int result = bin_cluster(t, model->clusters + (size_t)k * MODEL_CLUSTER_BYTES);
-            if (result != FRAME_OK) { return result; }
-        }
-        t->face_base += model->face_count;
+    for (unsigned i = 0; i < number; i++) {
+        t->face_base += scene->instances[i].model->face_count;
+    }
+    return FRAME_OK;
+}
+
+int bin_instance(tuile_t *t, unsigned number) {
+    const int error = bin_instance_open(t, number);
+    if (error) { return error; }
+    const tuile_model_t *model = t->instance->model;
+    for (uint32_t k = 0; k < model->cluster_count; k++) {
+        const int result = bin_cluster(t, model->clusters + (size_t)k * MODEL_CLUSTER_BYTES);
+        if (result != FRAME_OK) { return result; }
+    }
+    return FRAME_OK;
+}
+
+int bin_pass(tuile_t *t) {
+    bin_begin(t);
+    for (unsigned i = 0; i < t->scene->instance_count; i++) {
+        const int result = bin_instance(t, i);
+        if (result != FRAME_OK) { return result; }
     }
     return FRAME_OK;
 }

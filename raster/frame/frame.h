@@ -106,6 +106,7 @@ typedef struct tuile {
     transform_region_t region;
     transform_t transform;
     const tuile_instance_t *instance;
+    uint8_t sides;          /* SIDE_...: which sides of faces are wanted */
     uint32_t face_base;     /* id of the first face of the instance */
     uint16_t material_base; /* of the instance's model */
     raster_tile_t tile;
@@ -136,14 +137,46 @@ TUILE_INLINE record_t *frame_record(const tuile_t *t, uint32_t number) {
 
 TUILE_INLINE uint32_t frame_record_id(const record_t *record) { return ((const record_id_t *)(const void *)record)->id; }
 
-/* ---- bin.c: the vertex stage and the faces of a pass ---- */
+/* ---- bin.c: clusters ---- */
+
+/* A cluster whose vertices are in the arena. */
+typedef struct frame_cluster {
+    const uint8_t *bytes; /* in the model's table */
+    const uint8_t *faces;
+    const int16_t *positions;
+    const int8_t *face_normals; /* flat shading, else NULL */
+    vertex_t *vertices;
+    bool any_outside;    /* some vertex may need clipping */
+    uint32_t first_face; /* id - 1 of its first face */
+} frame_cluster_t;
+
+enum { BIN_CULLED = 2 };
+enum { SIDE_FRONT = 1, SIDE_BACK = 2 };
 
 /* Runs all clusters over the region of the pass. In an immediate pass each face is handed to t->draw_now at once, which never
  * overflows unless a single cluster does. */
 int bin_pass(tuile_t *t);
 
+/* The same in parts, for methods with an order of their own: nothing binned yet; an instance's faces in their order; an instance
+ * made the current one; one of its clusters (BIN_CULLED: none of its faces can be seen), or a cluster whose vertices stand from
+ * slot `slot` on. */
+void bin_begin(tuile_t *t);
+int bin_instance(tuile_t *t, unsigned number);
+int bin_instance_open(tuile_t *t, unsigned number);
+int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster);
+void bin_cluster_at(const tuile_t *t, const uint8_t *bytes, uint32_t slot, frame_cluster_t *cluster);
+
 /* Hangs all records that reach tile row `row` or below into the buckets again. */
 void bin_again(tuile_t *t, uint16_t row);
+
+/* Vertices that still fit below the records. */
+uint32_t frame_slots_left(const tuile_t *t);
+
+/* ---- face.c ---- */
+
+/* Records for the faces of a cluster: all, or faces first ... end - 1 of it (first < end), in their order or backwards. */
+int face_bin_all(tuile_t *t, const frame_cluster_t *cluster);
+int face_bin_run(tuile_t *t, const frame_cluster_t *cluster, unsigned first, unsigned end, bool backwards);
 
 /* ---- pass.c ---- */
 

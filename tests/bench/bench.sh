@@ -37,8 +37,8 @@ for model in "$@"; do
                 }
                 function phase(f) {
                     if (f ~ /^(vertex_|perspective|orthographic)/) return "vertex"
-                    if (f ~ /^(triangle_fill[a-z_]*|triangle_skip|bend|fill_rows|polygon_start|polygon_fill|polygon_skip|polygon_span|span_|chains_|polygon_chain|sorted_crossings|side_start|ring_point|polygon_crossing)/) return "span"
-                    if (f ~ /^(zbuffer_clear|fill_words)/ || f ~ /memset/) return "clear"
+                    if (f ~ /^(triangle_fill[a-z_]*|triangle_paint_[agf][a-z]*|triangle_skip|bend|fill_rows|polygon_start|polygon_fill|polygon_paint|polygon_paint_start|polygon_skip|polygon_span|span_|chains_|polygon_chain|sorted_crossings|side_start|ring_point|polygon_crossing)/) return "span"
+                    if (f ~ /^(zbuffer_clear|frame_fill_words|tile_clear)/ || f ~ /memset/) return "clear"
                     if (f ~ /^resolve_tile/) return "resolve"
                     return "setup"
                 }
