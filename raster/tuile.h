@@ -75,6 +75,10 @@ typedef struct tuile_model {
     uint16_t radius;
     uint16_t flags;
     const uint8_t *positions, *normals, *clusters, *faces, *face_normals, *materials, *source;
+    const uint8_t *tree; /* NULL: none */
+    uint32_t tree_words;
+    uint16_t tree_depth;     /* nodes on the longest path */
+    int16_t low[3], high[3]; /* the box of all positions, in steps relative to offset */
 } tuile_model_t;
 
 /* Opens a model that `tuile mesh` wrote, from flash or from a file read into memory. Every index, offset and count

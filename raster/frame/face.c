@@ -1,4 +1,5 @@
-/* From the faces of a cluster to records: culling by signed area, clipping, and the bucket of the tile row where each face starts. */
+/* From the faces of a cluster to records: culling by signed area, clipping, and the bucket of the tile row where each face starts.
+ */
 #include "../tune.h"
 
 #include "frame.h"
@@ -199,8 +200,7 @@ static TUILE_NOINLINE int bin_triangles(tuile_t *t, const frame_cluster_t *clust
     const uint32_t base = (uint32_t)(cluster->vertices - t->vertices);
     for (unsigned f = 0; f < count; f++, face += 4, normal += normal_step) {
         const int result =
-            bin_triangle(t, base, face[0], face[1], face[2], face[3], normal, cluster->first_face + f,
-                                        t->sides | SIDE_FRONT);
+            bin_triangle(t, base, face[0], face[1], face[2], face[3], normal, cluster->first_face + f, t->sides | SIDE_FRONT);
         if (TUILE_UNLIKELY(result != FRAME_OK)) { return result; }
     }
     return FRAME_OK;
@@ -222,8 +222,8 @@ static TUILE_NOINLINE int bin_outside_triangles(tuile_t *t, const frame_cluster_
 }
 
 /* A triangle in a cluster whose vertices may lie too far apart for a record: it gets copies that stand together. */
-static int bin_far_triangle(tuile_t *t, const frame_cluster_t *cluster, const uint8_t corners[3], uint8_t material, const int8_t *normal,
-                            uint32_t id) {
+static int bin_far_triangle(tuile_t *t, const frame_cluster_t *cluster, const uint8_t corners[3], uint8_t material,
+                            const int8_t *normal, uint32_t id) {
     if (frame_slots_left(t) < 3) { return FRAME_FULL; }
     vertex_t *v = t->vertices + t->vertex_count;
     const uint32_t binned = t->record_count;
@@ -287,7 +287,8 @@ int face_bin_all(tuile_t *t, const frame_cluster_t *cluster) {
 
 /* ---- some faces of a cluster, in either direction ---- */
 
-static TUILE_NOINLINE int bin_triangle_run(tuile_t *t, const frame_cluster_t *cluster, unsigned first, unsigned end, bool backwards) {
+static TUILE_NOINLINE int bin_triangle_run(tuile_t *t, const frame_cluster_t *cluster, unsigned first, unsigned end,
+                                           bool backwards) {
     const uint32_t base = (uint32_t)(cluster->vertices - t->vertices);
     const vertex_t *v = cluster->vertices;
     const unsigned sides = t->sides;
@@ -297,9 +298,8 @@ static TUILE_NOINLINE int bin_triangle_run(tuile_t *t, const frame_cluster_t *cl
         const int8_t *normal = cluster->face_normals ? cluster->face_normals + 3 * (size_t)f : NULL;
         const uint32_t id = cluster->first_face + f;
         const bool outside = v[face[0]].x == VERTEX_OUTSIDE || v[face[1]].x == VERTEX_OUTSIDE || v[face[2]].x == VERTEX_OUTSIDE;
-        const int result = TUILE_UNLIKELY(outside)
-                               ? bin_clipped(t, cluster, face, 3, face[3], normal, id)
-                               : bin_triangle(t, base, face[0], face[1], face[2], face[3], normal, id, sides);
+        const int result = TUILE_UNLIKELY(outside) ? bin_clipped(t, cluster, face, 3, face[3], normal, id)
+                                                   : bin_triangle(t, base, face[0], face[1], face[2], face[3], normal, id, sides);
         if (TUILE_UNLIKELY(result != FRAME_OK)) { return result; }
     }
     return FRAME_OK;

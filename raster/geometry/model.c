@@ -2,6 +2,7 @@
 #include "model.h"
 
 #include "../memory.h"
+#include "tree.h"
 
 _Static_assert(sizeof(void *) >= 4 || sizeof(void *) == 2, "pointers");
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
@@ -80,6 +81,17 @@ static bool check_clusters(const tuile_model_t *model, uint32_t face_bytes_size)
     return vertex == model->vertex_count && face == model->face_count;
 }
 
+/* The box is believed by those who order instances: no position may lie outside. */
+static bool check_box(const tuile_model_t *model) {
+    const uint8_t *p = model->positions;
+    for (uint32_t v = 0; v < model->vertex_count; v++) {
+        for (unsigned i = 0; i < 3; i++, p += 2) {
+            if (model_i16(p) < model->low[i] || model_i16(p) > model->high[i]) { return false; }
+        }
+    }
+    return true;
+}
+
 int tuile_model_open(tuile_model_t *model, const void *data, size_t size_bytes) {
     const uint8_t *bytes = data;
     tuile_model_t m;
@@ -106,6 +118,8 @@ int tuile_model_open(tuile_model_t *model, const void *data, size_t size_bytes) 
     for (unsigned i = 0; i < 3; i++) {
         m.centre[i] = model_i16(bytes + MODEL_AT_CENTRE + 2 * i);
         m.offset[i] = (int32_t)model_u32(bytes + MODEL_AT_OFFSET + 4 * i);
+        m.low[i] = model_i16(bytes + MODEL_AT_LOW + 2 * i);
+        m.high[i] = model_i16(bytes + MODEL_AT_HIGH + 2 * i);
     }
     if (m.face_count == 0 || m.cluster_count == 0 || m.material_count == 0 || m.material_count > 256 || m.step.mantissa == 0 ||
         m.step.exponent < -1000 || m.step.exponent > 1000 || m.cluster_vertices_max > 255 || m.corners_max > 255) {
@@ -124,7 +138,16 @@ int tuile_model_open(tuile_model_t *model, const void *data, size_t size_bytes) 
         m.source = section(bytes, m.size_bytes, MODEL_AT_SOURCE, m.face_count, m.flags & MODEL_FLAG_SOURCE32 ? 4 : 2);
         if (!m.source) { return TUILE_ERROR_MODEL; }
     }
-    if (!check_clusters(&m, face_bytes_size)) { return TUILE_ERROR_MODEL; }
+    if (!check_clusters(&m, face_bytes_size) || !check_box(&m)) { return TUILE_ERROR_MODEL; }
+    m.tree = NULL;
+    m.tree_words = model_u32(bytes + MODEL_AT_TREE_WORDS);
+    m.tree_depth = model_u16(bytes + MODEL_AT_TREE_DEPTH);
+    if (model_u32(bytes + MODEL_AT_TREE) != 0) {
+        m.tree = section(bytes, m.size_bytes, MODEL_AT_TREE, m.tree_words, 4);
+        if (!m.tree || !tree_check(&m)) { return TUILE_ERROR_MODEL; }
+    } else if (m.tree_words != 0 || m.tree_depth != 0) {
+        return TUILE_ERROR_MODEL;
+    }
     memcpy(model, &m, sizeof m);
     return TUILE_OK;
 }

@@ -14,7 +14,7 @@
 
 #define MODEL_MAGIC 0x4c495554u /* "TUIL" */
 #define MODEL_VERSION 2u
-#define MODEL_HEADER_BYTES 108u
+#define MODEL_HEADER_BYTES 120u
 
 /* Byte offsets in the header. */
 enum {
@@ -47,6 +47,8 @@ enum {
     MODEL_AT_TREE_WORDS = 100, /* u32, size of that section in 32-bit words */
     MODEL_AT_TREE_DEPTH = 104, /* u16, nodes on the longest path; 0 without a tree */
     MODEL_AT_ZERO = 106,       /* u16, 0 */
+    MODEL_AT_LOW = 108,        /* 3 x i16, least of all positions */
+    MODEL_AT_HIGH = 114,       /* 3 x i16, greatest */
 };
 
 enum {

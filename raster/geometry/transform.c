@@ -133,6 +133,10 @@ static void eye_position(transform_t *transform, const tuile_camera_t *camera, c
         eye[j] = wide_add(wide_multiply(sum, per_step), wide_make(-(int64_t)instance->model->offset[j], 0));
         if (wide_bits(eye[j]) > bits) { bits = wide_bits(eye[j]); }
     }
+    transform->observer_bits = (int16_t)(bits < 15 ? 14 : 29 - bits);
+    for (int j = 0; j < 3; j++) {
+        transform->observer[j] = (int32_t)wide_to_integer(eye[j], transform->observer_bits);
+    }
     if (bits > 20 + 31) {
         transform->cones = false;
         return;
@@ -151,6 +155,7 @@ static void view_direction(transform_t *transform, const tuile_camera_t *camera,
             sum -= (int64_t)camera->rotation[2][k] * instance->pose.rotation[k][j];
         }
         transform->eye[j] = (int32_t)(sum >> 40);
+        transform->observer[j] = -(int32_t)(sum >> 32);
     }
 }
 

@@ -43,9 +43,12 @@ typedef struct transform {
     int32_t guard_x, guard_y; /* least window coordinates that a vertex may have, 1/16 pixel; they span GUARD_SPAN */
     /* Culling of clusters. */
     transform_plane_t planes[PLANE_COUNT];
-    int32_t eye[3];    /* perspective: steps >> eye_shift; orthographic: the view direction, |.| <= 2^20 */
-    uint8_t eye_shift; /* eyes far away are cut to 21 bits */
-    bool cones;        /* clusters may be dropped by their cones: one-sided, and the eye within 2^51 steps */
+    int32_t eye[3];        /* perspective: steps >> eye_shift; orthographic: the view direction, |.| <= 2^20 */
+    uint8_t eye_shift;     /* eyes far away are cut to 21 bits */
+    int32_t observer[3];   /* for the sides of planes: perspective: the eye, in steps * 2^observer_bits; orthographic: the way to
+                              the observer. |.| < 2^30 */
+    int16_t observer_bits; /* <= 14 */
+    bool cones;            /* clusters may be dropped by their cones: one-sided, and the eye within 2^51 steps */
     /* Light. */
     int32_t lights[TRANSFORM_LIGHTS_MAX][3]; /* in model space, towards the light, scaled: (normal . light) >> 13 is 0 ... 255;
                                                 |components| <= 16512 */

@@ -155,6 +155,21 @@ static void write_u32(uint8_t *p, uint32_t value) {
     write_u16(p + 2, value >> 16);
 }
 
+/* The least and greatest coordinates of all positions. */
+static void write_box(const sheet_t *positions, uint8_t *low, uint8_t *high) {
+    int32_t least[3] = {INT16_MAX, INT16_MAX, INT16_MAX}, most[3] = {INT16_MIN, INT16_MIN, INT16_MIN};
+    for (size_t at = 0; at < positions->size; at += 2) {
+        const size_t axis = at / 2 % 3;
+        const int32_t value = model_i16(positions->bytes + at);
+        least[axis] = value < least[axis] ? value : least[axis];
+        most[axis] = value > most[axis] ? value : most[axis];
+    }
+    for (size_t axis = 0; axis < 3; axis++) {
+        write_u16(low + 2 * axis, (uint32_t)least[axis]);
+        write_u16(high + 2 * axis, (uint32_t)most[axis]);
+    }
+}
+
 static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32) {
     const solid_t *solid = e->solid;
     for (size_t i = 0; i < MODEL_HEADER_BYTES; i++) {
@@ -191,6 +206,7 @@ static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32
         write_u16(header + MODEL_AT_CENTRE + 2 * k, (uint32_t)sphere.centre[k]);
         write_u32(header + MODEL_AT_OFFSET + 4 * k, (uint32_t)solid->offset[k]);
     }
+    write_box(&e->positions, header + MODEL_AT_LOW, header + MODEL_AT_HIGH);
     write_u32(header + MODEL_AT_POSITIONS, at[0]);
     write_u32(header + MODEL_AT_NORMALS, at[1]);
     write_u32(header + MODEL_AT_CLUSTER_TABLE, at[2]);
