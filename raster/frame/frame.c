@@ -30,6 +30,7 @@ const char *tuile_error_text(int error) {
 static const visibility_method_t *method_of(uint8_t number) {
     switch (number) {
     case TUILE_ZBUFFER: return METHOD(TUILE_ZBUFFER, visibility_zbuffer);
+    case TUILE_TREE: return METHOD(TUILE_TREE, visibility_tree);
     default: return NULL;
     }
 }
@@ -56,6 +57,7 @@ static bool config_complete(tuile_config_t *c, size_t size_bytes) {
     if (c->tile_height > c->height) { c->tile_height = c->height; }
     if (c->cluster_vertices == 0) { c->cluster_vertices = 255; }
     if (c->corners == 0) { c->corners = 4; }
+    if (c->tree_depth == 0) { c->tree_depth = 64; }
     if (c->tile_step == 0) { c->tile_step = 1; }
     if (c->row_end == 0) { c->row_end = c->height; }
     return true;
@@ -71,7 +73,8 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     const size_t tile_bytes = TUILE_ALIGN64(method->tile_bytes ? method->tile_bytes(&c) : 0);
     const size_t least = TUILE_LEAST_BYTES((size_t)c.height, (size_t)c.tile_width, (size_t)c.tile_height, c.format,
                                            (size_t)c.buffers, (size_t)c.cluster_vertices) -
-                         TUILE_ALIGN64(2u * pixels) + tile_bytes + TUILE_CORNERS_BYTES(c.corners);
+                         TUILE_ALIGN64(2u * pixels) + tile_bytes + TUILE_CORNERS_BYTES(c.corners) +
+                         (c.method == TUILE_TREE ? TUILE_ALIGN8(4u * (size_t)c.tree_depth) + 8 : 0);
     if (wanted_bytes) { *wanted_bytes = least; }
     if (block == NULL || size_bytes < least) { return TUILE_ERROR_MEMORY; }
     if ((uintptr_t)block % 8 != 0 || size_bytes > UINT32_MAX) { return TUILE_ERROR_ARGUMENT; }
@@ -130,7 +133,7 @@ int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     uint32_t materials, faces;
     if (t == NULL || scene == NULL) { return TUILE_ERROR_ARGUMENT; }
     if (t->in_frame) { return TUILE_ERROR_SEQUENCE; }
-    const int error = check_scene(t, scene, &materials, &faces);
+    int error = check_scene(t, scene, &materials, &faces);
     if (error) { return error; }
 
     const uint32_t size = t->stats.size_bytes, least = t->stats.least_bytes;
@@ -151,7 +154,10 @@ int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     for (size_t i = 0; i < ramps; i++) {
         t->ramp_tags[i] = -1;
     }
-    t->vertices = (vertex_t *)(void *)(t->arena + TUILE_ALIGN8(ramps * ramp));
+    uint8_t *start = t->arena + TUILE_ALIGN8(ramps * ramp);
+    t->keep = t->immediate_only = false;
+    if (t->method->begin && (error = t->method->begin(t, &start)) != TUILE_OK) { return error; }
+    t->vertices = (vertex_t *)(void *)start;
     const size_t slots = (size_t)(t->arena_end - (uint8_t *)t->vertices) / sizeof(vertex_t);
     t->vertex_limit = (uint32_t)(slots > 65535 ? 65535 : slots);
     t->pass_valid = t->narrow = t->immediate = t->shrunk = false;

@@ -54,6 +54,8 @@ typedef struct visibility_method {
     /* Bytes beside the colours of a tile that must be there for as long as the renderer is; NULL: none. They lie at t->tile_memory,
      * 64-byte aligned, and have no content that lasts from tile to tile. */
     size_t (*tile_bytes)(const tuile_config_t *config);
+    /* Memory of the method for the frame, taken from the start of the arena: *arena moves on, by multiples of 8. NULL: none. */
+    int (*begin)(tuile_t *t, uint8_t **arena);
     /* Faces of the pass into records. */
     int (*gather)(tuile_t *t);
     /* Before each tile, behind the background; NULL: nothing. */
@@ -68,7 +70,8 @@ typedef struct visibility_method {
     size_t (*room_bytes)(const tuile_config_t *config, uint32_t records);
 } visibility_method_t;
 
-extern const visibility_method_t visibility_zbuffer; /* visibility/zbuffer.c */
+extern const visibility_method_t visibility_zbuffer; /* visibility/zbuffer.c, and so on */
+extern const visibility_method_t visibility_tree;
 
 typedef struct tuile {
     const visibility_method_t *method;
@@ -87,6 +90,12 @@ typedef struct tuile {
     int16_t *ramp_tags;
     uint16_t ramp_count;
     uint16_t background;
+    /* Display trees. */
+    uint32_t *tree_stack;     /* config.tree_depth */
+    uint16_t *instance_order; /* visibility/arrange.h */
+    uint16_t *cluster_slots;  /* of the instance that is being walked: where each cluster's vertices stand */
+    bool keep;                /* no immediate passes in this frame */
+    bool immediate_only;      /* no others */
     /* The pass. */
     vertex_t *vertices;
     uint8_t *states; /* where the stream of states may begin: after the vertices */

@@ -16,7 +16,7 @@ static void pass_set(tuile_t *t, uint32_t first, uint32_t end, uint32_t column, 
     t->pass_end = (uint16_t)end;
     t->pass_column = (uint16_t)column;
     t->narrow = narrow;
-    t->immediate = narrow && t->method->draw_now != NULL;
+    t->immediate = narrow && t->method->draw_now != NULL && !t->keep;
     t->draw_now = t->method->draw_now;
     t->region.top = (uint16_t)(first * c->tile_height);
     t->region.bottom = (uint16_t)(end * c->tile_height < c->height ? end * c->tile_height : c->height);
@@ -83,7 +83,7 @@ static bool pass_shrink(tuile_t *t) {
     t->pass_valid = false;
     if (t->narrow) { return false; }
     t->rows_hint = (uint16_t)((t->pass_end - t->pass_first) / 2);
-    return t->rows_hint > 0 || t->method->draw_now != NULL || t->tile_columns > 1;
+    return t->rows_hint > 0 || (t->method->draw_now != NULL && !t->keep) || t->tile_columns > 1;
 }
 
 /* A pass that holds tile `column` of row `row`. */
@@ -91,7 +91,7 @@ static int pass_begin(tuile_t *t, uint32_t row, uint32_t column) {
     const uint32_t end = (uint32_t)(t->config.row_end + t->config.tile_height - 1) / t->config.tile_height;
     uint32_t rows;
     for (;;) {
-        rows = t->rows_hint;
+        rows = t->immediate_only ? 0 : t->rows_hint;
         if (rows > end - row) { rows = end > row ? end - row : 1; }
         pass_set(t, row, row + (rows ? rows : 1), column, rows == 0);
         if (t->immediate) {
