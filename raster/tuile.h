@@ -178,6 +178,30 @@ typedef enum tuile_tie {
 
 #define TUILE_WINDOW_MAX_PX 1024 /* width and height */
 
+/* How TUILE_WARNOCK divides, or-ed together. They draw the same picture; tuile_stats_t tells what each of them takes. */
+typedef enum tuile_warnock {
+    TUILE_WARNOCK_QUARTERS = 1, /* nothing but quarters, down to single pixels; what the others are compared with */
+    TUILE_WARNOCK_SINGLE = 2,   /* a window that one face meets, before the background or a face behind it, is painted at once */
+    TUILE_WARNOCK_BOX = 4,      /* windows that few faces meet are cut along the sides of a face's bounding box */
+    TUILE_WARNOCK_SORTED = 8,   /* the faces of a tile are sorted by their nearest vertex */
+    TUILE_WARNOCK_PIXELS = 16,  /* a window of up to 2 x 2 pixels goes to pixels at once, without lists of its own */
+} tuile_warnock_t;
+
+/* Why a window was divided no further. */
+typedef enum tuile_why {
+    TUILE_WHY_EMPTY = 0,      /* no face meets it */
+    TUILE_WHY_SINGLE = 1,     /* one face meets it, before the background or a face that fills it */
+    TUILE_WHY_SURROUNDED = 2, /* a face fills it and hides all others in it */
+    TUILE_WHY_PIXEL = 3,      /* it is one pixel */
+} tuile_why_t;
+
+/* Callbacks for those who want to watch; any of them may be NULL. */
+typedef struct tuile_trace {
+    void *context;
+    /* TUILE_WARNOCK: pixels left ... right - 1, top ... bottom - 1 have their colours; why: tuile_why_t. */
+    void (*window)(void *context, unsigned left, unsigned top, unsigned right, unsigned bottom, unsigned why);
+} tuile_trace_t;
+
 /* Zero = default, throughout. */
 typedef struct tuile_config {
     uint16_t width, height;           /* window, 1 ... TUILE_WINDOW_MAX_PX */
@@ -192,6 +216,8 @@ typedef struct tuile_config {
     uint16_t tree_depth;              /* deepest tree of any model to be drawn (tree_depth), TUILE_TREE only; 0 = 64 */
     uint16_t tile_first, tile_step;   /* draw tiles first, first + step, ... in row-major order; step 0 = 1 */
     uint16_t row_first, row_end;      /* draw only the tiles that start in rows [first, end); end 0 = height */
+    uint8_t warnock;                  /* tuile_warnock_t; 0 = SINGLE | SORTED | PIXELS */
+    const tuile_trace_t *trace;       /* NULL = none; outlives the renderer */
 } tuile_config_t;
 
 /* Constant expressions for the size of the block, in bytes. */
@@ -264,9 +290,10 @@ typedef struct tuile_stats {
     uint32_t tiles;
     uint32_t tiles_narrow;     /* that took a pass of their own, for lack of memory */
     uint32_t active_max;       /* scan-line: most faces on one line of a tile */
-    uint32_t windows;          /* Warnock: windows looked at, */
+    uint32_t windows;          /* Warnock: windows looked at, the tiles themselves among them, */
     uint32_t windows_depth;    /* the greatest number of divisions that led to one, */
-    uint32_t windows_pixels;   /* and how many were one pixel in the end and decided as such */
+    uint32_t windows_pixels;   /* how many were one pixel in the end and decided as such, */
+    uint32_t windows_waiting;  /* and the most that were on the stack at once */
     uint32_t compared;         /* painter: pairs of faces looked at, */
     uint32_t moved;            /* faces moved before another, */
     uint32_t splits;           /* and cut because they cross or overlap in a cycle */

@@ -144,20 +144,44 @@ TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, con
     start(triangle, v0, v1, v2, first_row, true, gouraud);
 }
 
-void triangle_plane(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane) {
+/* A value at the centre of pixel (0, 0), modulo 2^64: c0 is the value at v0, Q.16 with the rounding half. */
+TUILE_INLINE int64_t gradient_origin(gradient_t g, int64_t c0, const vertex_t *v0) {
+    const int32_t to_x = 8 - v0->x, to_y = 8 - v0->y;
+    return (int64_t)((uint64_t)c0 + (uint64_t)gradient_part(g, to_x & 15, to_y & 15) + (uint64_t)g.dx * (uint64_t)(to_x >> 4) +
+                     (uint64_t)g.dy * (uint64_t)(to_y >> 4));
+}
+
+TUILE_INLINE void planes(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane, light_plane_t *lights) {
     const int32_t x0 = v0->x, y0 = v0->y, x1 = v1->x - x0, y1 = v1->y - y0, x2 = v2->x - x0, y2 = v2->y - y0;
-    const int32_t area = x2 * y1 - x1 * y2;
+    const int32_t area = x2 * y1 - x1 * y2, reciprocal = INT32_MAX / area;
     const uint32_t depth0 = v0->depth_light >> 8;
     const int32_t z1 = (int32_t)(v1->depth_light >> 8) - (int32_t)depth0, z2 = (int32_t)(v2->depth_light >> 8) - (int32_t)depth0;
-    const gradient_t depth = sides_short(v0, v1, v2) && depths_near(z1, z2)
-                                 ? gradient_small(z1, z2, x1, y1, x2, y2, INT32_MAX / area, 12)
-                                 : gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
+    const bool small = sides_short(v0, v1, v2) && depths_near(z1, z2);
+    const gradient_t depth =
+        small ? gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12) : gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
     plane->dx = depth.dx;
     plane->dy = depth.dy;
-    plane->z = ((int64_t)depth0 << 8) + 0x8000 + gradient_part(depth, (8 - x0) & 15, (8 - y0) & 15) + depth.dx * ((8 - x0) >> 4) +
-               depth.dy * ((8 - y0) >> 4);
+    plane->z = gradient_origin(depth, ((int64_t)depth0 << 8) + 0x8000, v0);
     plane->low = 0;
     plane->high = UINT32_MAX;
+    if (lights) {
+        const uint32_t light0 = v0->depth_light & 0xff;
+        const int32_t l1 = (int32_t)(v1->depth_light & 0xff) - (int32_t)light0,
+                      l2 = (int32_t)(v2->depth_light & 0xff) - (int32_t)light0;
+        const gradient_t light =
+            small ? gradient_small(l1, l2, x1, y1, x2, y2, reciprocal, 28) : gradient_exact(l1, l2, x1, y1, x2, y2, area, 28);
+        lights->light = (uint32_t)gradient_origin(light, ((int64_t)light0 << 24) + 0x800000, v0);
+        lights->dx = (uint32_t)light.dx;
+        lights->dy = (uint32_t)light.dy;
+    }
+}
+
+void triangle_plane(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane) {
+    planes(v0, v1, v2, plane, NULL);
+}
+
+void triangle_planes(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane, light_plane_t *lights) {
+    planes(v0, v1, v2, plane, lights);
 }
 
 TUILE_NOINLINE void triangle_paint_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,

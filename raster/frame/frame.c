@@ -31,6 +31,7 @@ static const visibility_method_t *method_of(uint8_t number) {
     switch (number) {
     case TUILE_ZBUFFER: return METHOD(TUILE_ZBUFFER, visibility_zbuffer);
     case TUILE_TREE: return METHOD(TUILE_TREE, visibility_tree);
+    case TUILE_WARNOCK: return METHOD(TUILE_WARNOCK, visibility_warnock);
     default: return NULL;
     }
 }
@@ -48,7 +49,8 @@ static bool config_complete(tuile_config_t *c, size_t size_bytes) {
     if (c->width == 0 || c->height == 0 || c->width > TUILE_WINDOW_MAX_PX || c->height > TUILE_WINDOW_MAX_PX || c->buffers > 2 ||
         c->format > TUILE_FACE_IDS || method_of(c->method) == NULL || c->shade > TUILE_GOURAUD || c->tie > TUILE_TIE_LAST ||
         c->tile_width > TUILE_WINDOW_MAX_PX || c->tile_height > TUILE_WINDOW_MAX_PX || c->cluster_vertices > 255 ||
-        c->corners > 255 || c->row_first > c->height || c->row_end > c->height || (c->row_end != 0 && c->row_end < c->row_first)) {
+        c->corners > 255 || c->row_first > c->height || c->row_end > c->height || (c->row_end != 0 && c->row_end < c->row_first) ||
+        c->warnock > 31) {
         return false;
     }
     if (c->buffers == 0) { c->buffers = 2; }
@@ -60,6 +62,7 @@ static bool config_complete(tuile_config_t *c, size_t size_bytes) {
     if (c->tree_depth == 0) { c->tree_depth = 64; }
     if (c->tile_step == 0) { c->tile_step = 1; }
     if (c->row_end == 0) { c->row_end = c->height; }
+    if (c->warnock == 0) { c->warnock = TUILE_WARNOCK_SINGLE | TUILE_WARNOCK_SORTED | TUILE_WARNOCK_PIXELS; }
     return true;
 }
 

@@ -71,6 +71,7 @@ typedef struct visibility_method {
 } visibility_method_t;
 
 extern const visibility_method_t visibility_zbuffer; /* visibility/zbuffer.c, and so on */
+extern const visibility_method_t visibility_warnock;
 extern const visibility_method_t visibility_tree;
 
 typedef struct tuile {

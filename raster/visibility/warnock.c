@@ -1,0 +1,383 @@
+/* Warnock's subdivision (S15): a window that no face meets keeps the background; one that a face fills and hides all others in takes
+ * that face; any other is divided, down to single pixels, where the nearest face at the centre is seen. There is no depth buffer.
+ *
+ * Faces of a window. One array holds the numbers of the tile's faces. Those of a window are two neighbouring parts of it,
+ *     order:  ... | first .. filling -> surrounding | filling .. end -> intersecting | ...
+ * and what lies outside is of no concern to it: disjoint, or hidden all over it. For a part of the window the array is rearranged
+ * within these two parts only:
+ *     before:   | surrounding                | intersecting                        |
+ *     after:    | hidden now | surrounding still | surrounding now | intersecting still | disjoint or hidden now |
+ * so what a window's three numbers enclose are the same faces for each of its parts, in whatever order, and nothing has to be
+ * undone on the way up.
+ *
+ * Windows that wait lie on a stack, each with the three numbers of the window that it is a part of. Of the parts the smallest is
+ * looked at first and the largest last. Then with w windows waiting below one of area A,  w + 1.5 log2 A  never grows: of four parts
+ * the smallest has an area of at most A / 4 and three wait below it (3 = 1.5 log2 4), the next A / 3 and two (2 < 1.5 log2 3), then
+ * A / 2 and one, then none; of two parts A / 2 and one. Hence at most 1.5 log2 2^20 + 1 = 31 windows, wherever they are cut.
+ *
+ * Memory: the free room holds sizeof(warnock_face_t) + 2 = 90 bytes for each face whose box meets the tile; the stack is 31 * 16
+ * bytes of the processor's. Nothing else, whatever the size of a tile.
+ */
+#include "../tune.h"
+
+#include "rows.h"
+#include "warnock_face.h"
+
+#define STACK_WINDOWS 31
+
+_Static_assert(TUILE_WINDOW_MAX_PX <= 1024, "STACK_WINDOWS");
+
+typedef struct waiting {
+    window_t window;
+    uint16_t first, filling, end; /* of the window that it is a part of */
+    uint16_t depth;               /* divisions that led here */
+} waiting_t;
+
+typedef struct subdivision {
+    tuile_t *t;
+    warnock_face_t *faces; /* in the order of their records */
+    uint16_t *order;
+    uint32_t count;
+    unsigned variant; /* tuile_warnock_t */
+    unsigned waiting;
+    waiting_t stack[STACK_WINDOWS];
+} subdivision_t;
+
+static void decided(const subdivision_t *s, const window_t *w, tuile_why_t why) {
+    const tuile_trace_t *trace = s->t->config.trace;
+    if (TUILE_UNLIKELY(trace != NULL) && trace->window) {
+        trace->window(trace->context, (unsigned)w->left, (unsigned)w->top, (unsigned)w->right, (unsigned)w->bottom, why);
+    }
+}
+
+TUILE_INLINE void swap(uint16_t *a, uint16_t *b) {
+    const uint16_t held = *a;
+    *a = *b;
+    *b = held;
+}
+
+/* ---- pixels ---- */
+
+/* Which of four pixels - (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1) - a triangle covers: bit i of the result. */
+TUILE_INLINE unsigned cover_triangle(const warnock_face_t *face, int32_t x, int32_t y) {
+    uint32_t out0 = 0, out1 = 0, out2 = 0, out3 = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        const window_side_t *side = &face->sides[i];
+        const uint32_t a = (uint32_t)side->a, b = (uint32_t)side->b, e = (uint32_t)window_side_at(side, x, y);
+        out0 |= e;
+        out1 |= e + a;
+        out2 |= e + b;
+        out3 |= e + a + b;
+    }
+    return ~((out0 >> 31) | (out1 >> 31) << 1 | (out2 >> 31) << 2 | (out3 >> 31) << 3) & 15u;
+}
+
+static unsigned cover_polygon(const subdivision_t *s, const warnock_face_t *face, const window_t *w) {
+    const polygon_ring_t ring = frame_record_ring(s->t, frame_record(s->t, face->record));
+    unsigned covered = 0;
+    for (int32_t y = w->top; y < w->bottom; y++) {
+        for (int32_t x = w->left; x < w->right; x++) {
+            const window_t pixel = {(int16_t)x, (int16_t)y, (int16_t)(x + 1), (int16_t)(y + 1)};
+            if (window_ring(&ring, &pixel) == WINDOW_SURROUNDING) { covered |= 1u << (x - w->left + 2 * (y - w->top)); }
+        }
+    }
+    return covered;
+}
+
+/* A pixel's nearest face so far: depth above, the face below, turned so that the one that wins a tie is greater. 0: none. */
+TUILE_INLINE uint32_t nearest_key(uint32_t depth, uint32_t face, uint32_t turn) { return depth << 16 | (face ^ turn); }
+
+/* The nearest face of each of up to 2 x 2 pixels, from order[first ... end - 1], of which those below `filling` cover them all. */
+static void decide_pixels(subdivision_t *s, const window_t *w, uint32_t first, uint32_t filling, uint32_t end) {
+    const uint32_t turn = s->t->config.tie == TUILE_TIE_LAST ? 0 : 0xffffu;
+    const int32_t x = w->left, y = w->top;
+    const unsigned wanted = (w->right - x > 1 ? 3u : 1u) * (w->bottom - y > 1 ? 5u : 1u);
+    uint32_t nearest[4] = {0, 0, 0, 0};
+    for (uint32_t k = first; k < end; k++) {
+        const uint32_t number = s->order[k];
+        const warnock_face_t *face = &s->faces[number];
+        unsigned covered = wanted;
+        if (k >= filling) {
+            if (window_misses(w, &face->box)) { continue; }
+            covered &= face->is_triangle ? cover_triangle(face, x, y) : cover_polygon(s, face, w);
+        }
+        if (!covered) { continue; }
+        if (TUILE_UNLIKELY(!face->is_triangle)) {
+            for (unsigned i = 0; i < 4; i++) {
+                if (!(covered >> i & 1)) { continue; }
+                const uint32_t depth = warnock_face_depth(s->t, face, x + (int32_t)(i & 1), y + (int32_t)(i >> 1));
+                const uint32_t key = nearest_key(depth, number, turn);
+                nearest[i] = key > nearest[i] ? key : nearest[i];
+            }
+            continue;
+        }
+        const uint32_t dx = (uint32_t)face->dx, dy = (uint32_t)face->dy,
+                       z = (uint32_t)face->z + dx * (uint32_t)x + dy * (uint32_t)y;
+        const uint32_t key0 = nearest_key(z >> 16, number, turn), key1 = nearest_key((z + dx) >> 16, number, turn),
+                       key2 = nearest_key((z + dy) >> 16, number, turn), key3 = nearest_key((z + dx + dy) >> 16, number, turn);
+        if (covered & 1 && key0 > nearest[0]) { nearest[0] = key0; }
+        if (covered & 2 && key1 > nearest[1]) { nearest[1] = key1; }
+        if (covered & 4 && key2 > nearest[2]) { nearest[2] = key2; }
+        if (covered & 8 && key3 > nearest[3]) { nearest[3] = key3; }
+    }
+    for (unsigned i = 0; i < 4; i++) {
+        const int32_t px = x + (int32_t)(i & 1), py = y + (int32_t)(i >> 1);
+        if (!(wanted >> i & 1)) { continue; }
+        if (nearest[i]) { warnock_face_pixel(s->t, &s->faces[(nearest[i] ^ turn) & 0xffffu], px, py); }
+        s->t->stats.windows_pixels++;
+        decided(s, &(window_t){(int16_t)px, (int16_t)py, (int16_t)(px + 1), (int16_t)(py + 1)}, TUILE_WHY_PIXEL);
+    }
+}
+
+/* ---- windows ---- */
+
+/* Does face a, by its number, win over b at equal depth? */
+TUILE_INLINE bool wins_tie(const subdivision_t *s, uint32_t a, uint32_t b) {
+    return s->t->config.tie == TUILE_TIE_LAST ? a > b : a < b;
+}
+
+TUILE_INLINE bool hides(const subdivision_t *s, uint32_t a, uint32_t b, const window_t *w) {
+    return warnock_face_hides(&s->faces[a], &s->faces[b], w, wins_tie(s, a, b));
+}
+
+/* The surrounding face whose least depth over the corner pixels is greatest. */
+typedef struct front {
+    uint32_t face; /* s->count: none */
+    uint32_t least;
+} front_t;
+
+TUILE_INLINE void front_take(const subdivision_t *s, front_t *front, uint32_t number, const window_t *w) {
+    const uint32_t least = warnock_face_least(&s->faces[number], w);
+    if (front->face == s->count || least > front->least || (least == front->least && wins_tie(s, number, front->face))) {
+        *front = (front_t){number, least};
+    }
+}
+
+/* Makes the lists of a part from those of the window that it is a part of. */
+static front_t sort_out(const subdivision_t *s, waiting_t *p) {
+    const window_t w = p->window;
+    uint16_t *order = s->order;
+    uint32_t filling = p->filling, end = p->filling, first = p->first;
+    front_t front = {s->count, 0};
+    for (uint32_t k = p->first; k < p->filling; k++) {
+        front_take(s, &front, order[k], &w);
+    }
+    for (uint32_t k = p->filling; k < p->end; k++) {
+        const uint32_t number = order[k];
+        const warnock_face_t *face = &s->faces[number];
+        /* A whole step behind the front: no need to know where it lies. */
+        if (face->high < (front.least & 0xffff0000u)) { continue; }
+        const window_relation_t relation = warnock_face_relation(s->t, face, &w);
+        if (relation == WINDOW_DISJOINT) { continue; }
+        swap(&order[end], &order[k]);
+        if (relation == WINDOW_SURROUNDING) {
+            swap(&order[filling++], &order[end]);
+            front_take(s, &front, number, &w);
+        }
+        end++;
+    }
+    if (front.face != s->count && end - first > 1) { /* what the front hides goes to either side */
+        for (uint32_t k = first; k < filling; k++) {
+            if (order[k] == front.face || !hides(s, front.face, order[k], &w)) { continue; }
+            if (k < p->filling) {
+                swap(&order[first++], &order[k]);
+            } else {
+                /* It joined from the right, and leaves there: over the last of those that surround, then the last of all. */
+                swap(&order[--filling], &order[k]);
+                swap(&order[--end], &order[filling]);
+                k--;
+            }
+        }
+        for (uint32_t k = filling; k < end; k++) {
+            if (hides(s, front.face, order[k], &w)) { swap(&order[--end], &order[k--]); }
+        }
+    }
+    p->first = (uint16_t)first;
+    p->filling = (uint16_t)filling;
+    p->end = (uint16_t)end;
+    return front;
+}
+
+/* Colours the window if it can be done at once. */
+static bool settle(const subdivision_t *s, const waiting_t *p, front_t front) {
+    const unsigned surrounding = (unsigned)(p->filling - p->first), intersecting = (unsigned)(p->end - p->filling);
+    if (surrounding > 1 || intersecting > 1) { return false; }
+    if (intersecting == 1) {
+        const uint32_t number = s->order[p->filling];
+        if (!(s->variant & TUILE_WARNOCK_SINGLE) || (surrounding == 1 && !hides(s, number, front.face, &p->window))) {
+            return false;
+        }
+        if (surrounding) { warnock_face_fill(s->t, &s->faces[front.face], &p->window); }
+        warnock_face_paint(s->t, &s->faces[number], &p->window);
+        decided(s, &p->window, TUILE_WHY_SINGLE);
+    } else if (surrounding) {
+        warnock_face_fill(s->t, &s->faces[front.face], &p->window);
+        decided(s, &p->window, TUILE_WHY_SURROUNDED);
+    } else {
+        decided(s, &p->window, TUILE_WHY_EMPTY);
+    }
+    return true;
+}
+
+/* ---- division ---- */
+
+/* The cut nearer the middle. */
+TUILE_INLINE void cut_offer(int32_t *cut, int32_t at, int32_t low, int32_t high, int32_t *distance) {
+    const int32_t away = 2 * at > low + high ? 2 * at - low - high : low + high - 2 * at;
+    if (at > low && at < high && away < *distance) {
+        *cut = at;
+        *distance = away;
+    }
+}
+
+#define BOX_FACES 4 /* measured */
+
+/* Where a window is cut: a column and a row where its right and lower parts begin, or its right and lower end where it is not. A side
+ * that is twice the other is halved alone, so that parts become squares. */
+static void cut_window(const subdivision_t *s, const waiting_t *p, int32_t *column, int32_t *row) {
+    const window_t *w = &p->window;
+    const int32_t width = w->right - w->left, height = w->bottom - w->top;
+    *column = height >= 2 * width ? w->right : w->left + width / 2;
+    *row = width >= 2 * height ? w->bottom : w->top + height / 2;
+    if (s->variant & TUILE_WARNOCK_BOX && p->end - p->filling <= BOX_FACES) {
+        int32_t across = INT32_MAX, down = INT32_MAX;
+        for (uint32_t k = p->filling; k < p->end; k++) {
+            const window_t *box = &s->faces[s->order[k]].box;
+            cut_offer(column, box->left, w->left, w->right, &across);
+            cut_offer(column, box->right, w->left, w->right, &across);
+            cut_offer(row, box->top, w->top, w->bottom, &down);
+            cut_offer(row, box->bottom, w->top, w->bottom, &down);
+        }
+    }
+}
+
+static void wait(subdivision_t *s, const waiting_t *p, int32_t left, int32_t top, int32_t right, int32_t bottom) {
+    if (left >= right || top >= bottom) { return; }
+    waiting_t *part = &s->stack[s->waiting++];
+    *part = *p;
+    part->window = (window_t){(int16_t)left, (int16_t)top, (int16_t)right, (int16_t)bottom};
+    part->depth++;
+}
+
+/* The parts onto the stack, the largest first. */
+static void divide(subdivision_t *s, const waiting_t *p) {
+    const window_t *w = &p->window;
+    int32_t column, row;
+    cut_window(s, p, &column, &row);
+    /* Less and more: the narrower columns and the lower rows, and the others. */
+    const bool left_less = column - w->left <= w->right - column, top_less = row - w->top <= w->bottom - row;
+    const int32_t x0 = left_less ? w->left : column, x1 = left_less ? column : w->right;
+    const int32_t x2 = left_less ? column : w->left, x3 = left_less ? w->right : column;
+    const int32_t y0 = top_less ? w->top : row, y1 = top_less ? row : w->bottom;
+    const int32_t y2 = top_less ? row : w->top, y3 = top_less ? w->bottom : row;
+    wait(s, p, x2, y2, x3, y3);
+    if ((x1 - x0) * (y3 - y2) >= (x3 - x2) * (y1 - y0)) {
+        wait(s, p, x0, y2, x1, y3);
+        wait(s, p, x2, y0, x3, y1);
+    } else {
+        wait(s, p, x2, y0, x3, y1);
+        wait(s, p, x0, y2, x1, y3);
+    }
+    wait(s, p, x0, y0, x1, y1);
+}
+
+static void subdivide(subdivision_t *s, const window_t *tile) {
+    tuile_stats_t *stats = &s->t->stats;
+    s->stack[0] = (waiting_t){*tile, 0, 0, (uint16_t)s->count, 0};
+    s->waiting = 1;
+    while (s->waiting > 0) {
+        waiting_t p = s->stack[--s->waiting];
+        const window_t *w = &p.window;
+        const int32_t width = w->right - w->left, height = w->bottom - w->top;
+        stats->windows++;
+        if (p.depth > stats->windows_depth) { stats->windows_depth = p.depth; }
+        if (width == 1 && height == 1) {
+            decide_pixels(s, w, p.first, p.filling, p.end);
+            continue;
+        }
+        if (s->variant & TUILE_WARNOCK_PIXELS && width <= 2 && height <= 2) {
+            stats->windows += (uint32_t)(width * height);
+            decide_pixels(s, w, p.first, p.filling, p.end);
+            continue;
+        }
+        const front_t front = sort_out(s, &p);
+        if (settle(s, &p, front)) { continue; }
+        divide(s, &p);
+        if (s->waiting > stats->windows_waiting) { stats->windows_waiting = s->waiting; }
+    }
+}
+
+/* ---- the tile ---- */
+
+/* The faces of tile row `row` into t->uncarried: those that come from above, and those that start there. */
+static void row_enter(tuile_t *t, uint16_t row) {
+    while (!t->row_ready || t->row < row) {
+        if (t->row_ready) {
+            row_advance(t, row_bottom(t, t->row));
+            t->row++;
+        }
+        t->uncarried = list_merge(t, list_reverse(t, t->buckets[t->row]), t->uncarried);
+        t->buckets[t->row] = RECORD_NONE;
+        t->row_ready = true;
+    }
+}
+
+/* By the nearest vertex, nearest first; of equals the one that wins first (Shell's sort). */
+static void sort_by_nearest(const subdivision_t *s) {
+    uint32_t gap = 1;
+    while (gap < s->count / 3) {
+        gap = 3 * gap + 1;
+    }
+    for (; gap > 0; gap /= 3) {
+        for (uint32_t i = gap; i < s->count; i++) {
+            const uint16_t number = s->order[i];
+            const uint32_t high = s->faces[number].high;
+            uint32_t at = i;
+            for (; at >= gap && s->faces[s->order[at - gap]].high < high; at -= gap) {
+                s->order[at] = s->order[at - gap];
+            }
+            s->order[at] = number;
+        }
+    }
+}
+
+static size_t faces_bytes(uint32_t count) { return TUILE_ALIGN8((sizeof(warnock_face_t) + sizeof(uint16_t)) * (size_t)count); }
+
+static int warnock_draw_tile(tuile_t *t, uint16_t row) {
+    const window_t tile = {(int16_t)t->tile.left, (int16_t)t->tile.top, (int16_t)t->tile.right, (int16_t)t->tile.bottom};
+    size_t room;
+    subdivision_t s;
+    row_enter(t, row);
+    s.t = t;
+    s.faces = (warnock_face_t *)(void *)frame_room(t, &room);
+    s.count = 0;
+    s.variant = t->config.warnock;
+    for (uint16_t list = t->uncarried; list != RECORD_NONE;) {
+        const uint32_t number = list - 1u;
+        const record_t *record = frame_record(t, number);
+        const window_t box = warnock_face_box(t, record);
+        list = record->next;
+        if (window_misses(&tile, &box)) { continue; }
+        if (faces_bytes(s.count + 1) > room) { return FRAME_FULL; }
+        if (warnock_face_start(t, &s.faces[s.count], number, &box)) { s.count++; }
+    }
+    pass_measure(t, faces_bytes(s.count));
+    s.order = (uint16_t *)(void *)(s.faces + s.count);
+    for (uint32_t i = 0; i < s.count; i++) {
+        s.order[i] = (uint16_t)i;
+    }
+    if (s.variant & TUILE_WARNOCK_SORTED) { sort_by_nearest(&s); }
+    subdivide(&s, &tile);
+    return FRAME_OK;
+}
+
+static size_t warnock_room_bytes(const tuile_config_t *config, uint32_t records) {
+    (void)config;
+    return faces_bytes(records);
+}
+
+const visibility_method_t visibility_warnock = {
+    .gather = bin_pass,
+    .draw_tile = warnock_draw_tile,
+    .room_bytes = warnock_room_bytes,
+};

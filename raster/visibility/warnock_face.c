@@ -1,0 +1,180 @@
+#include "../tune.h"
+
+#include "warnock_face.h"
+
+#include "paint.h"
+
+/* Of a triangle: 1/4 step by which its gradients may err (fill/triangle.c), and their floors. */
+#define PLANE_ERROR 0x4100u
+
+window_t warnock_face_box(const tuile_t *t, const record_t *record) {
+    if (!frame_record_is_triangle(record)) {
+        const polygon_ring_t ring = frame_record_ring(t, record);
+        return window_of_ring(&ring);
+    }
+    const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+    const int32_t left = v1->x < v2->x ? v1->x : v2->x, right = v1->x > v2->x ? v1->x : v2->x;
+    return (window_t){(int16_t)edge_row(v0->x < left ? v0->x : left), (int16_t)edge_row(v0->y),
+                      (int16_t)edge_row(v0->x > right ? v0->x : right), (int16_t)edge_row(v1->y > v2->y ? v1->y : v2->y)};
+}
+
+static void triangle_range(warnock_face_t *face, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2) {
+    const uint32_t z0 = v0->depth_light >> 8, z1 = v1->depth_light >> 8, z2 = v2->depth_light >> 8;
+    const uint32_t low = z1 < z2 ? z1 : z2, high = z1 > z2 ? z1 : z2;
+    face->low = ((z0 < low ? z0 : low) << 8) + 0x8000u - PLANE_ERROR;
+    face->high = ((z0 > high ? z0 : high) << 8) + 0x8000u + PLANE_ERROR;
+}
+
+static uint32_t face_colour(const tuile_t *t, const record_t *record) {
+    if (t->span_kind == SPAN_IDS) { return frame_record_id(record); }
+    return resolve_lit(t->config.format, frame_material(t, record->material), record->light);
+}
+
+bool warnock_face_start(tuile_t *t, warnock_face_t *face, uint32_t number, const window_t *box) {
+    const record_t *record = frame_record(t, number);
+    depth_plane_t plane;
+    t->stats.faces_setup++;
+    face->record = (uint16_t)number;
+    face->box = *box;
+    face->is_triangle = frame_record_is_triangle(record);
+    if (TUILE_LIKELY(face->is_triangle)) {
+        const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+        const bool gouraud = t->span_kind == SPAN_GOURAUD;
+        triangle_planes(v0, v1, v2, &plane, gouraud ? &face->light : NULL);
+        triangle_range(face, v0, v1, v2);
+        face->sides[0] = window_side(v0->x, v0->y, v1->x, v1->y);
+        face->sides[1] = window_side(v1->x, v1->y, v2->x, v2->y);
+        face->sides[2] = window_side(v2->x, v2->y, v0->x, v0->y);
+        face->value = gouraud ? record->material : face_colour(t, record);
+    } else {
+        const polygon_ring_t ring = frame_record_ring(t, record);
+        if (!polygon_plane(&ring, &plane)) { return false; }
+        face->low = plane.low;
+        face->high = plane.high;
+        face->value = face_colour(t, record);
+    }
+    face->z = plane.z;
+    face->dx = (int32_t)(uint32_t)plane.dx;
+    face->dy = (int32_t)(uint32_t)plane.dy;
+    face->is_steep = face->dx != plane.dx || face->dy != plane.dy;
+    return true;
+}
+
+uint16_t warnock_face_depth(const tuile_t *t, const warnock_face_t *face, int32_t x, int32_t y) {
+    if (face->is_triangle) {
+        return (uint16_t)(((uint32_t)face->z + (uint32_t)face->dx * (uint32_t)x + (uint32_t)face->dy * (uint32_t)y) >> 16);
+    }
+    depth_plane_t plane = {face->z, face->dx, face->dy, face->low, face->high};
+    if (face->is_steep) {
+        const polygon_ring_t ring = frame_record_ring(t, frame_record(t, face->record));
+        (void)polygon_plane(&ring, &plane);
+    }
+    return depth_at(&plane, x, y);
+}
+
+/* The plane over the window, without regard to the face's range. */
+static void plane_range(const warnock_face_t *face, const window_t *window, int64_t *least, int64_t *most) {
+    const int64_t across = (int64_t)face->dx * (window->right - 1 - window->left),
+                  down = (int64_t)face->dy * (window->bottom - 1 - window->top);
+    const int64_t z = face->z + (int64_t)face->dx * window->left + (int64_t)face->dy * window->top;
+    *least = z + (across < 0 ? across : 0) + (down < 0 ? down : 0);
+    *most = z + (across > 0 ? across : 0) + (down > 0 ? down : 0);
+}
+
+bool warnock_face_hides(const warnock_face_t *a, const warnock_face_t *b, const window_t *window, bool first) {
+    int64_t a_least = a->low, a_most = a->high, b_least = b->low, b_most = b->high;
+    const int64_t more = first ? 0 : 0x10000; /* a whole step when equal depth is not enough */
+    if (a->low >= b->high + more) { return true; }
+    if (a->high < b->low) { return false; }
+    if (!a->is_steep) { plane_range(a, window, &a_least, &a_most); }
+    if (!b->is_steep) { plane_range(b, window, &b_least, &b_most); }
+    const int64_t a_worst = a_least < a->low ? a->low : a_least > a->high ? a->high : a_least,
+                  b_best = b_most > b->high ? b->high : b_most < b->low ? b->low : b_most;
+    if (a_worst >= b_best + more) { return true; }
+    if (a->is_steep || b->is_steep) { return false; }
+    /* Corner by corner. Where a polygon's depth is clamped it does not follow its plane: a must not be held down below b, nor b be
+     * held up above a. */
+    if (!a->is_triangle && a_most > a->high && a->high < b_best + more) { return false; }
+    if (!b->is_triangle && b_least < b->low && b->low + more > a_worst) { return false; }
+    const int64_t dx = (int64_t)a->dx - b->dx, dy = (int64_t)a->dy - b->dy;
+    const int64_t across = dx * (window->right - 1 - window->left), down = dy * (window->bottom - 1 - window->top);
+    return a->z - b->z + dx * window->left + dy * window->top + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= more;
+}
+
+/* ---- into the tile ---- */
+
+static size_t pixel_at(const tuile_t *t, int32_t x, int32_t y) {
+    return (size_t)((y - t->tile.top) * t->tile.stride_px + (x - t->tile.left));
+}
+
+void warnock_face_fill(tuile_t *t, const warnock_face_t *face, const window_t *window) {
+    const int32_t count = window->right - window->left;
+    size_t at = pixel_at(t, window->left, window->top);
+    if (t->span_kind == SPAN_GOURAUD && face->is_triangle) {
+        const light_plane_t *l = &face->light;
+        const uint16_t *ramp = frame_ramp(t, face->value);
+        uint32_t light = warnock_face_light(face, window->left, window->top);
+        for (int32_t y = window->top; y < window->bottom; y++, at += (size_t)t->tile.stride_px, light += l->dy) {
+            paint_gouraud((uint16_t *)t->tile.colour + at, count, light, l->dx, ramp);
+        }
+        return;
+    }
+    for (int32_t y = window->top; y < window->bottom; y++, at += (size_t)t->tile.stride_px) {
+        if (t->span_kind == SPAN_IDS) {
+            paint_ids((uint32_t *)t->tile.colour + at, count, face->value);
+        } else {
+            paint_flat((uint16_t *)t->tile.colour + at, count, (uint16_t)face->value);
+        }
+    }
+}
+
+/* A triangle in a small window: pixel by pixel along its sides costs less than setting it up. */
+static void paint_small(tuile_t *t, const warnock_face_t *face, const window_t *window) {
+    const window_side_t *s = face->sides;
+    const bool gouraud = t->span_kind == SPAN_GOURAUD, ids = t->span_kind == SPAN_IDS;
+    const uint16_t *ramp = gouraud ? frame_ramp(t, face->value) : NULL;
+    uint32_t e0 = (uint32_t)window_side_at(&s[0], window->left, window->top),
+             e1 = (uint32_t)window_side_at(&s[1], window->left, window->top),
+             e2 = (uint32_t)window_side_at(&s[2], window->left, window->top);
+    uint32_t light = gouraud ? warnock_face_light(face, window->left, window->top) : 0;
+    size_t row = pixel_at(t, window->left, window->top);
+    for (int32_t y = window->top; y < window->bottom; y++, row += (size_t)t->tile.stride_px) {
+        uint32_t f0 = e0, f1 = e1, f2 = e2, shade = light;
+        size_t at = row;
+        for (int32_t x = window->left; x < window->right; x++, at++) {
+            if (!((f0 | f1 | f2) >> 31)) {
+                if (gouraud) {
+                    ((uint16_t *)t->tile.colour)[at] = ramp[shade >> 26];
+                } else if (ids) {
+                    ((uint32_t *)t->tile.colour)[at] = face->value;
+                } else {
+                    ((uint16_t *)t->tile.colour)[at] = (uint16_t)face->value;
+                }
+            }
+            f0 += (uint32_t)s[0].a;
+            f1 += (uint32_t)s[1].a;
+            f2 += (uint32_t)s[2].a;
+            if (gouraud) { shade += face->light.dx; }
+        }
+        e0 += (uint32_t)s[0].b;
+        e1 += (uint32_t)s[1].b;
+        e2 += (uint32_t)s[2].b;
+        if (gouraud) { light += face->light.dy; }
+    }
+}
+
+#define SMALL_PX 48 /* measured */
+
+void warnock_face_paint(tuile_t *t, const warnock_face_t *face, const window_t *window) {
+    window_t part = *window;
+    part.left = face->box.left > part.left ? face->box.left : part.left;
+    part.top = face->box.top > part.top ? face->box.top : part.top;
+    part.right = face->box.right < part.right ? face->box.right : part.right;
+    part.bottom = face->box.bottom < part.bottom ? face->box.bottom : part.bottom;
+    if (part.left >= part.right || part.top >= part.bottom) { return; }
+    if (face->is_triangle && (part.right - part.left) * (part.bottom - part.top) <= SMALL_PX) {
+        paint_small(t, face, &part);
+    } else {
+        paint_rectangle(t, face->record, part.left, part.top, part.right, part.bottom);
+    }
+}
