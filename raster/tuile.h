@@ -198,6 +198,12 @@ typedef enum tuile_why {
 /* Callbacks for those who want to watch; any of them may be NULL. */
 typedef struct tuile_trace {
     void *context;
+    /* A tile comes: pixels left ... right - 1, top ... bottom - 1. Then each face that reaches into its rows, in the order in which
+     * faces are drawn within the pass (number counts on from tile to tile of a pass; methods that paint show the later face), with
+     * its id (TUILE_FACE_IDS, else 0), and behind it each run of pixels first ... end - 1 of a row that it covers in the tile. */
+    void (*tile)(void *context, unsigned left, unsigned top, unsigned right, unsigned bottom);
+    void (*face)(void *context, uint32_t number, uint32_t id);
+    void (*span)(void *context, unsigned row, unsigned first, unsigned end);
     /* TUILE_WARNOCK: pixels left ... right - 1, top ... bottom - 1 have their colours; why: tuile_why_t. */
     void (*window)(void *context, unsigned left, unsigned top, unsigned right, unsigned bottom, unsigned why);
 } tuile_trace_t;

@@ -196,6 +196,11 @@ int pass_draw(tuile_t *t, uint32_t row, uint32_t column);
 /* Keeps the record of how much of the block the pass took, room_bytes of the room between vertices and records among it. */
 void pass_measure(tuile_t *t, size_t room_bytes);
 
+/* ---- trace.c: t->config.trace is not NULL ---- */
+
+void trace_tile(tuile_t *t);
+void trace_face(tuile_t *t, uint32_t number);
+
 /* ---- record.c ---- */
 
 TUILE_INLINE bool frame_record_is_triangle(const record_t *record) { return record->d1 != 0; }

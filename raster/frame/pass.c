@@ -140,9 +140,18 @@ static void tile_clear(tuile_t *t) {
     frame_fill_words(t->tile.colour, ids ? 0 : t->background * 0x10001u, pixels * TUILE_FORMAT_BYTES(t->config.format));
 }
 
+static void draw_now_traced(tuile_t *t, uint32_t number) {
+    t->method->draw_now(t, number);
+    trace_face(t, number);
+}
+
 static int draw_immediate(tuile_t *t, uint32_t row, uint32_t column) {
     pass_set(t, row, row + 1, column, true);
     tile_clear(t);
+    if (t->config.trace) {
+        trace_tile(t);
+        t->draw_now = draw_now_traced;
+    }
     const int result = t->method->gather(t);
     t->stats.tiles_narrow++;
     t->stats.peak_bytes = t->stats.size_bytes;
@@ -163,6 +172,7 @@ int pass_draw(tuile_t *t, uint32_t row, uint32_t column) {
         tile_clear(t);
         const int result = t->method->draw_tile(t, (uint16_t)row);
         if (result <= 0) {
+            if (t->config.trace) { trace_tile(t); }
             pass_measure(t, (size_t)(t->stream_end - t->stream));
             t->stats.tiles_narrow += t->narrow;
             return result;

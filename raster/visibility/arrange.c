@@ -1,9 +1,9 @@
 /* Separating planes between the boxes of instances.
  *
  * Two boxes in any pose are apart if and only if they are apart along one of 15 directions: the three axes of each and the nine
- * products of these. A plane across such a direction parts the objects, and what lies beyond it, seen from the observer, comes first
- * (proposition 3 of the document). Pairs without such a plane go in one group, and so do those whose order runs in a circle; a
- * group is drawn by another method. Nothing is guessed.
+ * products of these. A plane across such a direction parts the objects, and what lies beyond it, seen from the observer, comes
+ * first (proposition 3 of the document). Pairs without such a plane go in one group, and so do those whose order runs in a circle;
+ * a group is drawn by another method. Nothing is guessed.
  *
  * Boxes that touch may come out overlapping by what the quantisation of their models rounded: they count as apart up to 2^-15 of
  * their size along the direction, less than two steps of their grids.

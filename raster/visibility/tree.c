@@ -101,7 +101,8 @@ static int draw_run(tuile_t *t, walk_t *walk, uint32_t cluster, uint32_t first, 
 /* The faces of a set that show their inside (`outside` false) or their outside. */
 static int draw_set(tuile_t *t, walk_t *walk, const tree_convex_t *set, bool outside) {
     const unsigned wanted = walk->two_sided ? SIDE_FRONT | SIDE_BACK : SIDE_FRONT;
-    const unsigned outward = (outside ? walk->outer : walk->inner) & wanted, inward = (outside ? walk->inner : walk->outer) & wanted;
+    const unsigned outward = (outside ? walk->outer : walk->inner) & wanted,
+                   inward = (outside ? walk->inner : walk->outer) & wanted;
     const uint32_t middle = set->first + set->inward, end = middle + set->outward;
     const int result = walk->backwards ? draw_run(t, walk, set->cluster, middle, end, outward)
                                        : draw_run(t, walk, set->cluster, set->first, middle, inward);

@@ -1,5 +1,6 @@
-/* Warnock's subdivision (S15): a window that no face meets keeps the background; one that a face fills and hides all others in takes
- * that face; any other is divided, down to single pixels, where the nearest face at the centre is seen. There is no depth buffer.
+/* Warnock's subdivision (S15): a window that no face meets keeps the background; one that a face fills and hides all others in
+ * takes that face; any other is divided, down to single pixels, where the nearest face at the centre is seen. There is no depth
+ * buffer.
  *
  * Faces of a window. One array holds the numbers of the tile's faces. Those of a window are two neighbouring parts of it,
  *     order:  ... | first .. filling -> surrounding | filling .. end -> intersecting | ...
@@ -11,9 +12,10 @@
  * undone on the way up.
  *
  * Windows that wait lie on a stack, each with the three numbers of the window that it is a part of. Of the parts the smallest is
- * looked at first and the largest last. Then with w windows waiting below one of area A,  w + 1.5 log2 A  never grows: of four parts
- * the smallest has an area of at most A / 4 and three wait below it (3 = 1.5 log2 4), the next A / 3 and two (2 < 1.5 log2 3), then
- * A / 2 and one, then none; of two parts A / 2 and one. Hence at most 1.5 log2 2^20 + 1 = 31 windows, wherever they are cut.
+ * looked at first and the largest last. Then with w windows waiting below one of area A,  w + 1.5 log2 A  never grows: of four
+ * parts the smallest has an area of at most A / 4 and three wait below it (3 = 1.5 log2 4), the next A / 3 and two (2 < 1.5 log2
+ * 3), then A / 2 and one, then none; of two parts A / 2 and one. Hence at most 1.5 log2 2^20 + 1 = 31 windows, wherever they are
+ * cut.
  *
  * Memory: the free room holds sizeof(warnock_face_t) + 2 = 90 bytes for each face whose box meets the tile; the stack is 31 * 16
  * bytes of the processor's. Nothing else, whatever the size of a tile.
@@ -232,8 +234,8 @@ TUILE_INLINE void cut_offer(int32_t *cut, int32_t at, int32_t low, int32_t high,
 
 #define BOX_FACES 4 /* measured */
 
-/* Where a window is cut: a column and a row where its right and lower parts begin, or its right and lower end where it is not. A side
- * that is twice the other is halved alone, so that parts become squares. */
+/* Where a window is cut: a column and a row where its right and lower parts begin, or its right and lower end where it is not. A
+ * side that is twice the other is halved alone, so that parts become squares. */
 static void cut_window(const subdivision_t *s, const waiting_t *p, int32_t *column, int32_t *row) {
     const window_t *w = &p->window;
     const int32_t width = w->right - w->left, height = w->bottom - w->top;

@@ -88,8 +88,12 @@ bool warnock_face_hides(const warnock_face_t *a, const warnock_face_t *b, const 
     if (a->high < b->low) { return false; }
     if (!a->is_steep) { plane_range(a, window, &a_least, &a_most); }
     if (!b->is_steep) { plane_range(b, window, &b_least, &b_most); }
-    const int64_t a_worst = a_least < a->low ? a->low : a_least > a->high ? a->high : a_least,
-                  b_best = b_most > b->high ? b->high : b_most < b->low ? b->low : b_most;
+    const int64_t a_worst = a_least < a->low    ? a->low
+                            : a_least > a->high ? a->high
+                                                : a_least,
+                  b_best = b_most > b->high  ? b->high
+                           : b_most < b->low ? b->low
+                                             : b_most;
     if (a_worst >= b_best + more) { return true; }
     if (a->is_steep || b->is_steep) { return false; }
     /* Corner by corner. Where a polygon's depth is clamped it does not follow its plane: a must not be held down below b, nor b be

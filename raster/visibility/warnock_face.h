@@ -2,12 +2,13 @@
  * window. They are set up once a tile, in the free room, 88 bytes each: a face is looked at in many windows.
  *
  * Depth. A face's depth is affine over the pixels, z + x dx + y dy in Q16.16 with the rounding half, exact in integers; what the
- * z-buffer compares are the upper 16 bits, for polygons of more than three corners after clamping to the range of the corners. Hence
+ * z-buffer compares are the upper 16 bits, for polygons of more than three corners after clamping to the range of the corners.
+ * Hence
  *     - over a window a plane is least and greatest at corner pixels, and so is the difference of two;
- *     - planes are evaluated in windows that the face does not fill: what they say there beyond the face's own range `low` ... `high`
- *       counts for nothing, since no covered pixel has it;
- *     - a plane steeper than 2^31 (32768 steps a pixel) belongs to a sliver seen from its edge: its range decides alone. So |z| stays
- *       below 2^31 * 2^12 in windows, and 64 bits suffice.
+ *     - planes are evaluated in windows that the face does not fill: what they say there beyond the face's own range `low` ...
+ * `high` counts for nothing, since no covered pixel has it;
+ *     - a plane steeper than 2^31 (32768 steps a pixel) belongs to a sliver seen from its edge: its range decides alone. So |z|
+ * stays below 2^31 * 2^12 in windows, and 64 bits suffice.
  */
 #ifndef TUILE_VISIBILITY_WARNOCK_FACE_H
 #define TUILE_VISIBILITY_WARNOCK_FACE_H

@@ -10,8 +10,8 @@ window_relation_t window_ring(const polygon_ring_t *ring, const window_t *window
     for (uint32_t i = 0; i < ring->count; i++) {
         const vertex_t *to = polygon_ring_vertex(ring, i);
         const int32_t x0 = from->x, y0 = from->y, x1 = to->x, y1 = to->y;
-        const bool beyond = (x0 <= left && x1 <= left) || (x0 > right && x1 > right) || (y0 <= top && y1 <= top) ||
-                            (y0 > bottom && y1 > bottom);
+        const bool beyond =
+            (x0 <= left && x1 <= left) || (x0 > right && x1 > right) || (y0 <= top && y1 <= top) || (y0 > bottom && y1 > bottom);
         const bool passes_row = (y0 <= top) != (y1 <= top);
         from = to;
         if (beyond && !passes_row) { continue; }

@@ -9,15 +9,14 @@
  * Document 002 asks four questions, from the cheapest to the dearest:
  *   T1  is the bounding box inside the window?      window_holds
  *   T2  are box and window disjoint?                window_misses
- *   T3  does a side of the polygon meet the window? four sub-cases: a proper crossing, a corner of the window on a side, a corner of
- *       the polygon on a side of the window, a corner of one on a corner of the other
- *   T4  if not, is a corner of the window inside the polygon?
- * Sub-cases two to four of T3 say what holds when a cross product is 0, and they do not say it for all: sides that run along the
- * window's, a corner that only touches from outside, a polygon that is the window, a diagonal from corner to corner that goes through no
- * side's interior, a polygon that crosses itself. Here no cross product is 0. The fill rule - even-odd, a centre on a left or top
- * edge is in - is that of centres moved by (e, e^2) with an infinitesimal e: a point so moved lies on no line through whole
- * coordinates. The window is moved with its centres, so every case is the first one or none, and the answers fit the pixels that are
- * drawn. A cross product that is 0 takes its sign from what the move adds to it (window_side).
+ *   T3  does a side of the polygon meet the window? four sub-cases: a proper crossing, a corner of the window on a side, a corner
+ * of the polygon on a side of the window, a corner of one on a corner of the other T4  if not, is a corner of the window inside the
+ * polygon? Sub-cases two to four of T3 say what holds when a cross product is 0, and they do not say it for all: sides that run
+ * along the window's, a corner that only touches from outside, a polygon that is the window, a diagonal from corner to corner that
+ * goes through no side's interior, a polygon that crosses itself. Here no cross product is 0. The fill rule - even-odd, a centre on
+ * a left or top edge is in - is that of centres moved by (e, e^2) with an infinitesimal e: a point so moved lies on no line through
+ * whole coordinates. The window is moved with its centres, so every case is the first one or none, and the answers fit the pixels
+ * that are drawn. A cross product that is 0 takes its sign from what the move adds to it (window_side).
  */
 #ifndef TUILE_VISIBILITY_WINDOW_H
 #define TUILE_VISIBILITY_WINDOW_H
@@ -40,8 +39,8 @@ TUILE_INLINE bool window_misses(const window_t *window, const window_t *box) {
     return box->right <= window->left || box->left >= window->right || box->bottom <= window->top || box->top >= window->bottom;
 }
 
-/* The line through a side: a x + b y + c >= 0 iff the centre of pixel (x, y) is on its inner side, which lies to the left of the way
- * from the first corner to the second as seen. Never ambiguous: c holds the sign of the infinitesimal move. Differences of
+/* The line through a side: a x + b y + c >= 0 iff the centre of pixel (x, y) is on its inner side, which lies to the left of the
+ * way from the first corner to the second as seen. Never ambiguous: c holds the sign of the infinitesimal move. Differences of
  * coordinates are below 2^15 (guard band), pixels are in the frame: |values| < 2^31, |a|, |b| < 2^19. */
 typedef struct window_side {
     int32_t a, b, c;
