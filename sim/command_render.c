@@ -9,6 +9,7 @@
 #include "options.h"
 #include "output.h"
 #include "sheet.h"
+#include "show.h"
 #include "view.h"
 
 #include <errno.h>
@@ -41,6 +42,8 @@ static const char usage[] =
     "  --light X,Y,Z            the way the light travels\n"
     "  --background RRGGBB\n"
     "  --out frame-%03d.png     pictures of the panel; PPM when the name ends so\n"
+    "  --show METHOD-VIEW       draws by METHOD and makes --out show how: zbuffer-overdraw, scanline-edges, warnock-windows,\n"
+    "                           painter-order, tree-order; METHOD-tiles and -overdraw for any\n"
     "  --sheet FILE.png         all frames on one picture\n"
     "  --ids FILE               the visible face of each pixel, as rows of text: the importer's number of the face + 1, 0 = "
     "background\n"
@@ -52,7 +55,8 @@ typedef struct render {
     const char *model_path, *out, *sheet, *ids, *report;
     long frames, rotate, max_faces;
     size_t memory_bytes, clock_hz;
-    bool hash, pick;
+    bool hash, pick, has_show;
+    show_view_t show;
     double pick_at[2];
     tuile_config_t config;
     view_options_t view_options;
@@ -204,6 +208,14 @@ static int parse(render_t *r, int count, char **arguments) {
             (void)parse_background(&options, v->background);
         } else if (strcmp(argument, "--out") == 0) {
             r->out = options_value(&options);
+        } else if (strcmp(argument, "--show") == 0) {
+            const char *value = options_value(&options);
+            r->has_show = value != NULL;
+            if (value && show_parse(value, &r->show, &r->error) != 0) {
+                (void)command_fail("%s", r->error.text);
+                options.failed = true;
+            }
+            r->config.method = (uint8_t)r->show.method;
         } else if (strcmp(argument, "--sheet") == 0) {
             r->sheet = options_value(&options);
         } else if (strcmp(argument, "--ids") == 0) {
@@ -226,6 +238,7 @@ static int parse(render_t *r, int count, char **arguments) {
         (void)fputs(usage, stderr);
         return EXIT_USAGE;
     }
+    if (r->has_show && !r->out) { return command_fail("--show: where to? Add --out FILE.png"), EXIT_USAGE; }
     if (!check_pattern("--out", r->out, r->frames) || !check_pattern("--ids", r->ids, r->frames)) { return EXIT_USAGE; }
     return 0;
 }
@@ -387,6 +400,22 @@ static void report_frame(const render_t *r, unsigned frame, const char *hash) {
                   r->frame_ns ? 1e9 / (double)r->frame_ns : 0.0);
 }
 
+#define SHOW_ZOOM 3u
+
+static int write_show(render_t *r, const char *name) {
+    char summary[200] = "";
+    sim_picture_t picture = {0};
+    if (show_draw(&r->show, tuile_config(r->renderer), &r->view.scene, &r->model, SHOW_ZOOM, &picture, summary, sizeof summary,
+                  &r->error) != 0 ||
+        sim_picture_write(&picture, name, &r->error) != 0) {
+        sim_picture_free(&picture);
+        return command_fail("%s", r->error.text);
+    }
+    sim_picture_free(&picture);
+    (void)printf("%s\n", summary);
+    return 0;
+}
+
 static int draw_frame(render_t *r, unsigned frame) {
     sim_picture_t picture = {0}, glass = {0};
     char name[4096], hash[24] = "";
@@ -413,7 +442,11 @@ static int draw_frame(render_t *r, unsigned frame) {
     int code = 0;
     if (r->out) {
         frame_name(name, sizeof name, r->out, frame);
-        if (sim_picture_write(&picture, name, &r->error) != 0) { code = command_fail("%s", r->error.text); }
+        if (r->has_show) {
+            code = write_show(r, name);
+        } else if (sim_picture_write(&picture, name, &r->error) != 0) {
+            code = command_fail("%s", r->error.text);
+        }
     }
     if (code == 0 && r->ids) { code = write_ids(r, frame); }
     if (code == 0 && r->report) { report_frame(r, frame, hash); }

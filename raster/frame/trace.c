@@ -1,5 +1,5 @@
-/* Telling those who watch which faces came to a tile. Made from the records alone, so that nothing on the way of the pixels knows of
- * it. */
+/* Telling those who watch which faces came to a tile. Made from the records alone, so that nothing on the way of the pixels knows
+ * of it. */
 #include "frame.h"
 
 static void trace_row(const tuile_t *t, const polygon_ring_t *ring, int32_t row) {
@@ -42,7 +42,8 @@ void trace_face(tuile_t *t, uint32_t number) {
 void trace_tile(tuile_t *t) {
     const tuile_trace_t *trace = t->config.trace;
     if (trace->tile) {
-        trace->tile(trace->context, (unsigned)t->tile.left, (unsigned)t->tile.top, (unsigned)t->tile.right, (unsigned)t->tile.bottom);
+        trace->tile(trace->context, (unsigned)t->tile.left, (unsigned)t->tile.top, (unsigned)t->tile.right,
+                    (unsigned)t->tile.bottom);
     }
     for (uint32_t number = 0; !t->immediate && number < t->record_count; number++) {
         trace_face(t, number);
