@@ -144,6 +144,16 @@ TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, con
     start(triangle, v0, v1, v2, first_row, true, gouraud);
 }
 
+TUILE_NOINLINE void triangle_shade(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, bool gouraud, uint64_t *shade,
+                                   uint64_t *dx, uint64_t *dy) {
+    triangle_t triangle;
+    triangle.is_short = sides_short(v0, v1, v2);
+    shade_start(&triangle, v0, v1, v2, 0, true, gouraud);
+    *shade = triangle.shade;
+    *dx = triangle.dx;
+    *dy = triangle.dy;
+}
+
 /* A value at the centre of pixel (0, 0), modulo 2^64: c0 is the value at v0, Q.16 with the rounding half. */
 TUILE_INLINE int64_t gradient_origin(gradient_t g, int64_t c0, const vertex_t *v0) {
     const int32_t to_x = 8 - v0->x, to_y = 8 - v0->y;

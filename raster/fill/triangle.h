@@ -29,6 +29,10 @@ typedef struct triangle {
 void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t first_row,
                     bool gouraud);
 
+/* The shade that the tested spans of the triangle follow: at the centre of pixel (0, 0), and per pixel right and down. */
+void triangle_shade(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, bool gouraud, uint64_t *shade, uint64_t *dx,
+                    uint64_t *dy);
+
 /* The plane that the tested spans of the triangle follow. */
 void triangle_plane(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane);
 

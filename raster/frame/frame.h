@@ -52,7 +52,7 @@ enum { FRAME_OK = 0, FRAME_FULL = 1 }; /* FULL: the arena is; negative: tuile_er
 /* A hidden-surface method: what a frame asks of it. t->tile is the tile that is being drawn. */
 typedef struct visibility_method {
     /* Bytes beside the colours of a tile that must be there for as long as the renderer is; NULL: none. They lie at t->tile_memory,
-     * 64-byte aligned, and have no content that lasts from tile to tile. */
+     * 64-byte aligned; nobody but the method writes there. */
     size_t (*tile_bytes)(const tuile_config_t *config);
     /* Memory of the method for the frame, taken from the start of the arena: *arena moves on, by multiples of 8. NULL: none. */
     int (*begin)(tuile_t *t, uint8_t **arena);
@@ -68,9 +68,12 @@ typedef struct visibility_method {
     int (*draw_tile)(tuile_t *t, uint16_t row);
     /* The free room that suffices to draw a tile of so many records; NULL: none is needed. */
     size_t (*room_bytes)(const tuile_config_t *config, uint32_t records);
+    /* What a face of so many corners may want besides; NULL: nothing. */
+    size_t (*face_bytes)(uint32_t corners);
 } visibility_method_t;
 
 extern const visibility_method_t visibility_zbuffer; /* visibility/zbuffer.c, and so on */
+extern const visibility_method_t visibility_scanline;
 extern const visibility_method_t visibility_warnock;
 extern const visibility_method_t visibility_tree;
 

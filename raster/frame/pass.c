@@ -48,14 +48,15 @@ static void rows_restart(tuile_t *t, uint32_t row) {
 /* Takes the place of draw_now: the block that would hold this face for the whole pass. */
 static void count_face(tuile_t *t, uint32_t number) {
     const record_t *record = frame_record(t, number);
+    const uint32_t corners = frame_record_is_triangle(record) ? 3 : frame_record_ring(t, record).count;
     uint32_t slots = 0;
     if (!frame_record_is_triangle(record)) {
-        const uint32_t corners = frame_record_ring(t, record).count;
         slots = 1 + corners + (corners + 7) / 8;
     } else if (record->v0 >= t->cluster_end) {
         slots = 3; /* clipped: vertices of its own */
     }
     t->wanted_bytes += t->record_bytes + slots * sizeof(vertex_t);
+    if (t->method->face_bytes) { t->wanted_bytes += t->method->face_bytes(corners); }
     t->counted++;
 }
 

@@ -1,0 +1,336 @@
+/* The scan-line z-buffer (S14): a line sweeps down the tile, and only what crosses it is there: one row of depth, and for each face
+ * its active edge list (fill/active.h).
+ *
+ * What the method needs beside the colours of a tile, in bytes; w and h are the tile's width and height:
+ *   tile memory   2 w, rounded up to 64, the depth of one line; 2 h, the buckets: faces by the row where they begin
+ *   free room     24; 56 for each face that is active at once, 40 for each of its sides that the line crosses: 136 a triangle
+ *
+ * Faces and edges lie in a pool in the free room. Those active are a list in the order of their records, so that the first of equals
+ * wins by coming first, as with the z-buffer: coverage, depth and light are the same numbers. Newcomers are merged into that list
+ * while a line is drawn, and faces that end leave it.
+ *
+ * One column (strips): the active faces go on into the next row of tiles, as though the window had not been cut. Several columns: the
+ * buckets stay as they are for the whole row of tiles, and each tile begins with an empty list; a face that began higher up enters it
+ * on the tile's first row.
+ */
+#include "../tune.h"
+
+#include "../fill/active.h"
+#include "rows.h"
+
+typedef struct face {
+    uint32_t next;
+    active_list_t edges;
+    uint16_t record;
+    uint16_t polygon;   /* depth is held between low and high */
+    uint32_t value;     /* flat: colour; ids: id; gouraud: material */
+    uint32_t low, high; /* of polygons */
+    active_plane_t plane;
+} face_t;
+_Static_assert(sizeof(face_t) == 56, "what the method's memory is reckoned with");
+
+/* At the start of the free room. */
+typedef struct sweep {
+    active_pool_t pool;
+    uint32_t free_faces;
+    uint32_t faces; /* active */
+    uint32_t unused;
+} sweep_t;
+_Static_assert(sizeof(sweep_t) == 24, "what the method's memory is reckoned with");
+
+TUILE_INLINE face_t *face_at(sweep_t *sweep, uint32_t offset) { return active_at(&sweep->pool, offset); }
+
+static size_t line_bytes(const tuile_config_t *config) { return TUILE_ALIGN64(sizeof(uint16_t) * (size_t)config->tile_width); }
+
+static uint16_t *buckets(const tuile_t *t) { return (uint16_t *)(void *)((uint8_t *)t->tile_memory + line_bytes(&t->config)); }
+
+static size_t scanline_tile_bytes(const tuile_config_t *config) {
+    return line_bytes(config) + sizeof(uint16_t) * (size_t)config->tile_height;
+}
+
+static size_t scanline_room_bytes(const tuile_config_t *config, uint32_t records) {
+    (void)config;
+    return sizeof(sweep_t) + records * sizeof(face_t);
+}
+
+/* A triangle's third side takes the place of the one that it follows on. */
+static size_t scanline_face_bytes(uint32_t corners) { return (corners == 3 ? 2 : corners) * sizeof(active_edge_t); }
+
+/* ---- faces ---- */
+
+/* The corners of any face; three: room for them. */
+static polygon_ring_t face_ring(const tuile_t *t, const record_t *record, uint8_t three[3]) {
+    if (!frame_record_is_triangle(record)) { return frame_record_ring(t, record); }
+    int32_t least = record->d1 < record->d2 ? record->d1 : record->d2;
+    least = least < 0 ? least : 0;
+    three[0] = (uint8_t)-least;
+    three[1] = (uint8_t)(record->d1 - least);
+    three[2] = (uint8_t)(record->d2 - least);
+    return (polygon_ring_t){&t->vertices[record->v0 + least], three, NULL, 3};
+}
+
+static bool in_columns(const tuile_t *t, const record_t *record) {
+    uint8_t three[3];
+    const polygon_ring_t ring = face_ring(t, record, three);
+    int32_t least = INT32_MAX, most = INT32_MIN;
+    for (uint32_t i = 0; i < ring.count; i++) {
+        const int32_t x = polygon_ring_vertex(&ring, i)->x;
+        least = x < least ? x : least;
+        most = x > most ? x : most;
+    }
+    return edge_row(least) < t->tile.right && edge_row(most) > t->tile.left;
+}
+
+/* False: the face has no area. */
+static bool face_plane(const tuile_t *t, face_t *face, const record_t *record, const polygon_ring_t *ring) {
+    if (frame_record_is_triangle(record)) {
+        const vertex_t *v0 = &t->vertices[record->v0];
+        triangle_shade(v0, v0 + record->d1, v0 + record->d2, t->span_kind == SPAN_GOURAUD, &face->plane.z, &face->plane.dx,
+                       &face->plane.dy);
+        face->polygon = false;
+        return true;
+    }
+    depth_plane_t plane;
+    face->polygon = true;
+    if (!polygon_plane(ring, &plane)) { return false; }
+    face->plane = (active_plane_t){(uint64_t)plane.z, (uint64_t)plane.dx, (uint64_t)plane.dy};
+    face->low = plane.low;
+    face->high = plane.high;
+    return true;
+}
+
+static void face_end(sweep_t *sweep, uint32_t at) {
+    active_drop(&sweep->pool, &face_at(sweep, at)->edges);
+    active_give(&sweep->pool, &sweep->free_faces, at);
+}
+
+/* Links the face of a record in at its first row, when it covers any. */
+static int face_start(tuile_t *t, sweep_t *sweep, uint32_t *link, uint32_t number, int32_t row) {
+    const record_t *record = frame_record(t, number);
+    uint8_t three[3];
+    if (t->tile_columns > 1 && !in_columns(t, record)) { return FRAME_OK; }
+    const polygon_ring_t ring = face_ring(t, record, three);
+    const uint32_t at = active_take(&sweep->pool, &sweep->free_faces, sizeof(face_t));
+    if (at == 0) { return FRAME_FULL; }
+    face_t *face = face_at(sweep, at);
+    t->stats.faces_setup++;
+    face->edges.first = 0;
+    face->record = (uint16_t)number;
+    if (!face_plane(t, face, record, &ring)) {
+        face_end(sweep, at);
+        return FRAME_OK;
+    }
+    if (!active_enter(&sweep->pool, &face->edges, &ring, &face->plane, INT32_MIN, row)) { return FRAME_FULL; }
+    face->value = t->span_kind == SPAN_GOURAUD && !face->polygon ? record->material : face_value(t, record);
+    face->next = *link;
+    *link = at;
+    return FRAME_OK;
+}
+
+/* One row down, to `row`. False: the pool is full. */
+TUILE_INLINE bool face_step(const tuile_t *t, sweep_t *sweep, face_t *face, int32_t row) {
+    active_step(&sweep->pool, &face->edges, &face->plane, row);
+    if (TUILE_LIKELY(row != face->edges.row_next)) { return true; }
+    uint8_t three[3];
+    const polygon_ring_t ring = face_ring(t, frame_record(t, face->record), three);
+    return active_enter(&sweep->pool, &face->edges, &ring, &face->plane, row, row);
+}
+
+/* ---- spans ---- */
+
+typedef struct line {
+    uint16_t *depth;
+    uint8_t *colour;
+    int32_t left, right;
+} line_t;
+
+TUILE_INLINE void span_draw(tuile_t *t, const line_t *line, const face_t *face, int32_t from, int32_t count, uint64_t z, bool last) {
+    const int32_t at = from - line->left;
+    uint16_t *depth = line->depth + at, *colour = (uint16_t *)(void *)line->colour + at;
+    if (t->span_kind == SPAN_GOURAUD && !face->polygon) {
+        span_gouraud(depth, colour, count, z, face->plane.dx, frame_ramp(t, face->value), last);
+        return;
+    }
+    const unsigned shift = face->polygon ? 0 : 32;
+    const uint32_t z32 = (uint32_t)(z >> shift), dx = (uint32_t)(face->plane.dx >> shift);
+    if (t->span_kind == SPAN_IDS) {
+        span_ids(depth, (uint32_t *)(void *)line->colour + at, count, z32, dx, face->value, last);
+    } else {
+        span_flat(depth, colour, count, z32, dx, (uint16_t)face->value, last);
+    }
+}
+
+/* Of a polygon whose plane leaves the range of its corners somewhere: pixel by pixel. */
+static TUILE_NOINLINE void span_clamped(tuile_t *t, const line_t *line, const face_t *face, int32_t from, int32_t to, int64_t z,
+                                        bool last) {
+    for (; from < to; from++, z += (int64_t)face->plane.dx) {
+        const uint32_t held = z < face->low ? face->low : z > face->high ? face->high : (uint32_t)z;
+        span_draw(t, line, face, from, 1, held, last);
+    }
+}
+
+/* The document's "traiter les segments intersectés": entries two by two, those that have ended passed over. */
+TUILE_INLINE void face_draw(tuile_t *t, sweep_t *sweep, const line_t *line, const face_t *face, bool last) {
+    const active_edge_t *open = NULL, *e;
+    for (uint32_t at = face->edges.first; at; at = e->next) {
+        e = active_at(&sweep->pool, at);
+        if (e->rows == 0) { continue; }
+        if (open == NULL) {
+            open = e;
+            continue;
+        }
+        int32_t from = open->edge.x, to = e->edge.x;
+        uint64_t z = open->z;
+        open = NULL;
+        if (from < line->left) {
+            z += face->plane.dx * (uint64_t)(int64_t)(line->left - from);
+            from = line->left;
+        }
+        if (to > line->right) { to = line->right; }
+        if (from >= to) { continue; }
+        if (face->polygon) {
+            const int64_t begin = (int64_t)z, end = begin + (int64_t)face->plane.dx * (to - from - 1);
+            if (begin < face->low || begin > face->high || end < face->low || end > face->high) {
+                span_clamped(t, line, face, from, to, begin, last);
+                continue;
+            }
+        }
+        span_draw(t, line, face, from, to - from, z, last);
+    }
+}
+
+/* ---- the sweep ---- */
+
+/* One row: newcomers merged in, all faces drawn and moved on to the next row. */
+static int line_draw(tuile_t *t, sweep_t *sweep, const line_t *line, int32_t row) {
+    const bool last = t->config.tie == TUILE_TIE_LAST;
+    uint16_t newcomer = buckets(t)[row - t->tile.top];
+    uint32_t *link = &sweep->faces, active = 0;
+    if (newcomer == RECORD_NONE && sweep->faces == 0) { return FRAME_OK; }
+    frame_fill_words(line->depth, 0, sizeof(uint16_t) * (size_t)t->tile.stride_px);
+    for (;;) {
+        if (newcomer != RECORD_NONE && (*link == 0 || newcomer - 1u < face_at(sweep, *link)->record)) {
+            const uint32_t number = newcomer - 1u;
+            newcomer = frame_record(t, number)->next;
+            const int result = face_start(t, sweep, link, number, row);
+            if (result != FRAME_OK) { return result; }
+            continue;
+        }
+        if (*link == 0) { break; }
+        const uint32_t at = *link;
+        face_t *face = face_at(sweep, at);
+        last ? face_draw(t, sweep, line, face, true) : face_draw(t, sweep, line, face, false);
+        active++;
+        if (row + 1 >= face->edges.row_end) {
+            *link = face->next;
+            face_end(sweep, at);
+        } else {
+            if (!face_step(t, sweep, face, row + 1)) { return FRAME_FULL; }
+            link = &face->next;
+        }
+    }
+    if (active > t->stats.active_max) { t->stats.active_max = active; }
+    return FRAME_OK;
+}
+
+static void sweep_empty(sweep_t *sweep, size_t room_bytes) {
+    sweep->pool.top = sizeof(sweep_t);
+    sweep->pool.limit = (uint32_t)room_bytes;
+    sweep->pool.free_edges = sweep->free_faces = sweep->faces = 0;
+}
+
+/* ---- rows of tiles ---- */
+
+/* Rows of tiles were left out: what is active above them goes into the list of those to be set up. */
+static void sweep_release(tuile_t *t, sweep_t *sweep) {
+    uint16_t list = RECORD_NONE, *end = &list;
+    for (uint32_t at = sweep->faces; at; at = face_at(sweep, at)->next) {
+        const uint16_t number = face_at(sweep, at)->record;
+        *end = (uint16_t)(number + 1u);
+        end = &frame_record(t, number)->next;
+    }
+    *end = RECORD_NONE;
+    t->uncarried = list_merge(t, t->uncarried, list);
+}
+
+/* Moves the lists down to tile row `row`: t->uncarried has the faces without a state that began above it, and some that have ended. */
+static void rows_leave(tuile_t *t, sweep_t *sweep, uint16_t row) {
+    if (t->row == row) { return; }
+    sweep_release(t, sweep);
+    sweep->faces = 0;
+    for (; t->row < row; t->row++) {
+        if (t->row_ready) {
+            for (uint32_t i = 0; i < t->config.tile_height; i++) {
+                t->uncarried = list_merge(t, t->uncarried, buckets(t)[i]);
+            }
+        }
+        t->row_ready = false;
+        t->uncarried = list_merge(t, t->uncarried, list_reverse(t, t->buckets[t->row]));
+        t->buckets[t->row] = RECORD_NONE;
+    }
+}
+
+/* All faces of the tile row into the buckets of their first rows, each sorted. */
+static void row_enter(tuile_t *t, int32_t top) {
+    uint16_t *bucket = buckets(t), *end = &t->uncarried;
+    for (uint32_t i = 0; i < t->config.tile_height; i++) {
+        bucket[i] = RECORD_NONE;
+    }
+    for (uint16_t list = t->buckets[t->row], next; list != RECORD_NONE; list = next) { /* from the last record on */
+        record_t *record = frame_record(t, list - 1u);
+        int32_t first, row_end;
+        frame_record_rows(t, record, &first, &row_end);
+        uint16_t *of_row = &bucket[first > top ? first - top : 0];
+        next = record->next;
+        record->next = *of_row;
+        *of_row = list;
+    }
+    t->buckets[t->row] = RECORD_NONE;
+    while (*end != RECORD_NONE) {
+        record_t *record = frame_record(t, *end - 1u);
+        int32_t first, row_end;
+        frame_record_rows(t, record, &first, &row_end);
+        if (row_end > top) {
+            end = &record->next;
+        } else {
+            *end = record->next;
+        }
+    }
+    bucket[0] = list_merge(t, bucket[0], t->uncarried);
+    t->uncarried = RECORD_NONE;
+    t->row_ready = true;
+}
+
+static int scanline_draw_tile(tuile_t *t, uint16_t row) {
+    size_t room_bytes;
+    sweep_t *sweep = (sweep_t *)(void *)frame_room(t, &room_bytes);
+    if (room_bytes < sizeof(sweep_t)) { return FRAME_FULL; }
+    if (t->stream == t->stream_end) { sweep_empty(sweep, room_bytes); } /* the first tile of a pass */
+    rows_leave(t, sweep, row);
+    if (!t->row_ready) { row_enter(t, t->tile.top); }
+    if (t->tile_columns > 1) { sweep_empty(sweep, room_bytes); }
+
+    line_t line = {t->tile_memory, t->tile.colour, t->tile.left, t->tile.right};
+    const size_t stride = (size_t)t->tile.stride_px * TUILE_FORMAT_BYTES(t->config.format);
+    for (int32_t y = t->tile.top; y < t->tile.bottom; y++, line.colour += stride) {
+        const int result = line_draw(t, sweep, &line, y);
+        if (result != FRAME_OK) { return result; }
+    }
+    t->stream = (uint8_t *)sweep; /* what pass_measure counts */
+    t->stream_end = t->stream + sweep->pool.top;
+    if (t->tile_columns == 1) {
+        t->row++;
+        t->row_ready = false;
+    } else {
+        sweep->faces = 0; /* all of them are in the buckets */
+    }
+    return FRAME_OK;
+}
+
+const visibility_method_t visibility_scanline = {
+    .tile_bytes = scanline_tile_bytes,
+    .gather = bin_pass,
+    .draw_tile = scanline_draw_tile,
+    .room_bytes = scanline_room_bytes,
+    .face_bytes = scanline_face_bytes,
+};
