@@ -152,6 +152,7 @@ clang-programs: $(TESTS) $(TUILE)
 # No heap, no float, no state: proved on the objects of raster/, hal/ and the frame loop.
 objects: $(CORE_OBJ)
 	@sh tests/objects.sh $(CORE_OBJ)
+	@sh tests/methods.sh $(OBJ)/methods.o $(CC) $(CFLAGS_CORE)
 
 # ---- figures -------------------------------------------------------------------------------------------------------
 SIZE ?= 320x240
