@@ -60,75 +60,78 @@ TUILE_INLINE void swap(uint16_t *a, uint16_t *b) {
 
 /* ---- pixels ---- */
 
-/* Which of four pixels - (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1) - a triangle covers: bit i of the result. */
-TUILE_INLINE unsigned cover_triangle(const warnock_face_t *face, int32_t x, int32_t y) {
-    uint32_t out0 = 0, out1 = 0, out2 = 0, out3 = 0;
-    for (unsigned i = 0; i < 3; i++) {
-        const window_side_t *side = &face->sides[i];
-        const uint32_t a = (uint32_t)side->a, b = (uint32_t)side->b, e = (uint32_t)window_side_at(side, x, y);
-        out0 |= e;
-        out1 |= e + a;
-        out2 |= e + b;
-        out3 |= e + a + b;
-    }
-    return ~((out0 >> 31) | (out1 >> 31) << 1 | (out2 >> 31) << 2 | (out3 >> 31) << 3) & 15u;
+/* A face at a pixel: depth above, its number below, turned so that the one that wins a tie is greater. 0: none. */
+TUILE_INLINE uint32_t nearness(const subdivision_t *s, uint32_t number, int32_t x, int32_t y, uint32_t turn) {
+    return (uint32_t)warnock_face_depth(s->t, &s->faces[number], x, y) << 16 | (number ^ turn);
 }
 
-static unsigned cover_polygon(const subdivision_t *s, const warnock_face_t *face, const window_t *w) {
-    const polygon_ring_t ring = frame_record_ring(s->t, frame_record(s->t, face->record));
-    unsigned covered = 0;
-    for (int32_t y = w->top; y < w->bottom; y++) {
-        for (int32_t x = w->left; x < w->right; x++) {
-            const window_t pixel = {(int16_t)x, (int16_t)y, (int16_t)(x + 1), (int16_t)(y + 1)};
-            if (window_ring(&ring, &pixel) == WINDOW_SURROUNDING) { covered |= 1u << (x - w->left + 2 * (y - w->top)); }
-        }
-    }
-    return covered;
+TUILE_INLINE uint32_t tie_turn(const subdivision_t *s) { return s->t->config.tie == TUILE_TIE_LAST ? 0 : 0xffffu; }
+
+static void pixel_decided(const subdivision_t *s, int32_t x, int32_t y) {
+    s->t->stats.windows_pixels++;
+    decided(s, &(window_t){(int16_t)x, (int16_t)y, (int16_t)(x + 1), (int16_t)(y + 1)}, TUILE_WHY_PIXEL);
 }
 
-/* A pixel's nearest face so far: depth above, the face below, turned so that the one that wins a tie is greater. 0: none. */
-TUILE_INLINE uint32_t nearest_key(uint32_t depth, uint32_t face, uint32_t turn) { return depth << 16 | (face ^ turn); }
-
-/* The nearest face of each of up to 2 x 2 pixels, from order[first ... end - 1], of which those below `filling` cover them all. */
-static void decide_pixels(subdivision_t *s, const window_t *w, uint32_t first, uint32_t filling, uint32_t end) {
-    const uint32_t turn = s->t->config.tie == TUILE_TIE_LAST ? 0 : 0xffffu;
-    const int32_t x = w->left, y = w->top;
-    const unsigned wanted = (w->right - x > 1 ? 3u : 1u) * (w->bottom - y > 1 ? 5u : 1u);
-    uint32_t nearest[4] = {0, 0, 0, 0};
-    for (uint32_t k = first; k < end; k++) {
+/* A window of one pixel: of the faces in order[first ... end - 1], of which those below `filling` cover it, the nearest. */
+static void decide_pixel(const subdivision_t *s, const waiting_t *p) {
+    const int32_t x = p->window.left, y = p->window.top;
+    const uint32_t turn = tie_turn(s);
+    uint32_t nearest = 0;
+    for (uint32_t k = p->first; k < p->end; k++) {
         const uint32_t number = s->order[k];
-        const warnock_face_t *face = &s->faces[number];
-        unsigned covered = wanted;
-        if (k >= filling) {
-            if (window_misses(w, &face->box)) { continue; }
-            covered &= face->is_triangle ? cover_triangle(face, x, y) : cover_polygon(s, face, w);
-        }
-        if (!covered) { continue; }
-        if (TUILE_UNLIKELY(!face->is_triangle)) {
-            for (unsigned i = 0; i < 4; i++) {
-                if (!(covered >> i & 1)) { continue; }
-                const uint32_t depth = warnock_face_depth(s->t, face, x + (int32_t)(i & 1), y + (int32_t)(i >> 1));
-                const uint32_t key = nearest_key(depth, number, turn);
-                nearest[i] = key > nearest[i] ? key : nearest[i];
+        if (k >= p->filling && warnock_face_relation(s->t, &s->faces[number], &p->window) != WINDOW_SURROUNDING) { continue; }
+        const uint32_t key = nearness(s, number, x, y, turn);
+        nearest = key > nearest ? key : nearest;
+    }
+    if (nearest) { warnock_face_pixel(s->t, &s->faces[(nearest ^ turn) & 0xffffu], x, y); }
+    pixel_decided(s, x, y);
+}
+
+#define MASK_FACES 32
+
+/* A window of up to 32 pixels that up to 32 faces meet: each face tells its pixels as the bits of a word. A pixel that one face covers
+ * is that face's; only for those that several cover are depths compared. */
+static void decide_pixels(const subdivision_t *s, const waiting_t *p) {
+    const window_t *w = &p->window;
+    const uint32_t turn = tie_turn(s), count = (uint32_t)(p->end - p->first);
+    const uint16_t *order = s->order + p->first;
+    uint32_t masks[MASK_FACES], covered = 0, again = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        const warnock_face_t *face = &s->faces[order[k]];
+        const uint32_t mask =
+            k < (uint32_t)(p->filling - p->first) ? window_mask_full(w) : warnock_face_mask(s->t, face, w);
+        again |= covered & mask;
+        covered |= mask;
+        masks[k] = mask;
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t alone = masks[k] & ~again;
+        if (alone) { warnock_face_bits(s->t, &s->faces[order[k]], w, alone); }
+    }
+    const int32_t width = w->right - w->left;
+    int32_t x = w->left, y = w->top;
+    for (uint32_t bits = again; bits; bits >>= 1) {
+        if (bits & 1) {
+            const uint32_t bit = 1u << ((y - w->top) * width + x - w->left);
+            uint32_t nearest = 0;
+            for (uint32_t k = 0; k < count; k++) {
+                if (!(masks[k] & bit)) { continue; }
+                const uint32_t key = nearness(s, order[k], x, y, turn);
+                nearest = key > nearest ? key : nearest;
             }
-            continue;
+            warnock_face_pixel(s->t, &s->faces[(nearest ^ turn) & 0xffffu], x, y);
         }
-        const uint32_t dx = (uint32_t)face->dx, dy = (uint32_t)face->dy,
-                       z = (uint32_t)face->z + dx * (uint32_t)x + dy * (uint32_t)y;
-        const uint32_t key0 = nearest_key(z >> 16, number, turn), key1 = nearest_key((z + dx) >> 16, number, turn),
-                       key2 = nearest_key((z + dy) >> 16, number, turn), key3 = nearest_key((z + dx + dy) >> 16, number, turn);
-        if (covered & 1 && key0 > nearest[0]) { nearest[0] = key0; }
-        if (covered & 2 && key1 > nearest[1]) { nearest[1] = key1; }
-        if (covered & 4 && key2 > nearest[2]) { nearest[2] = key2; }
-        if (covered & 8 && key3 > nearest[3]) { nearest[3] = key3; }
+        if (++x == w->right) { x = w->left, y++; }
     }
-    for (unsigned i = 0; i < 4; i++) {
-        const int32_t px = x + (int32_t)(i & 1), py = y + (int32_t)(i >> 1);
-        if (!(wanted >> i & 1)) { continue; }
-        if (nearest[i]) { warnock_face_pixel(s->t, &s->faces[(nearest[i] ^ turn) & 0xffffu], px, py); }
-        s->t->stats.windows_pixels++;
-        decided(s, &(window_t){(int16_t)px, (int16_t)py, (int16_t)(px + 1), (int16_t)(py + 1)}, TUILE_WHY_PIXEL);
+    s->t->stats.windows += (uint32_t)window_area(w);
+    if (TUILE_UNLIKELY(s->t->config.trace != NULL)) {
+        for (y = w->top; y < w->bottom; y++) {
+            for (x = w->left; x < w->right; x++) {
+                decided(s, &(window_t){(int16_t)x, (int16_t)y, (int16_t)(x + 1), (int16_t)(y + 1)}, TUILE_WHY_PIXEL);
+            }
+        }
     }
+    s->t->stats.windows_pixels += (uint32_t)window_area(w);
 }
 
 /* ---- windows ---- */
@@ -239,8 +242,9 @@ TUILE_INLINE void cut_offer(int32_t *cut, int32_t at, int32_t low, int32_t high,
 static void cut_window(const subdivision_t *s, const waiting_t *p, int32_t *column, int32_t *row) {
     const window_t *w = &p->window;
     const int32_t width = w->right - w->left, height = w->bottom - w->top;
-    *column = height >= 2 * width ? w->right : w->left + width / 2;
-    *row = width >= 2 * height ? w->bottom : w->top + height / 2;
+    const bool halve = s->variant & TUILE_WARNOCK_PIXELS && width * height <= 2 * WINDOW_MASK_PX;
+    *column = height >= 2 * width || (halve && height > width) ? w->right : w->left + width / 2;
+    *row = width >= 2 * height || (halve && width >= height) ? w->bottom : w->top + height / 2;
     if (s->variant & TUILE_WARNOCK_BOX && p->end - p->filling <= BOX_FACES) {
         int32_t across = INT32_MAX, down = INT32_MAX;
         for (uint32_t k = p->filling; k < p->end; k++) {
@@ -294,16 +298,15 @@ static void subdivide(subdivision_t *s, const window_t *tile) {
         stats->windows++;
         if (p.depth > stats->windows_depth) { stats->windows_depth = p.depth; }
         if (width == 1 && height == 1) {
-            decide_pixels(s, w, p.first, p.filling, p.end);
-            continue;
-        }
-        if (s->variant & TUILE_WARNOCK_PIXELS && width <= 2 && height <= 2) {
-            stats->windows += (uint32_t)(width * height);
-            decide_pixels(s, w, p.first, p.filling, p.end);
+            decide_pixel(s, &p);
             continue;
         }
         const front_t front = sort_out(s, &p);
         if (settle(s, &p, front)) { continue; }
+        if (s->variant & TUILE_WARNOCK_PIXELS && width * height <= WINDOW_MASK_PX && p.end - p.first <= MASK_FACES) {
+            decide_pixels(s, &p);
+            continue;
+        }
         divide(s, &p);
         if (s->waiting > stats->windows_waiting) { stats->windows_waiting = s->waiting; }
     }

@@ -60,10 +60,7 @@ bool warnock_face_start(tuile_t *t, warnock_face_t *face, uint32_t number, const
     return true;
 }
 
-uint16_t warnock_face_depth(const tuile_t *t, const warnock_face_t *face, int32_t x, int32_t y) {
-    if (face->is_triangle) {
-        return (uint16_t)(((uint32_t)face->z + (uint32_t)face->dx * (uint32_t)x + (uint32_t)face->dy * (uint32_t)y) >> 16);
-    }
+uint16_t warnock_face_polygon_depth(const tuile_t *t, const warnock_face_t *face, int32_t x, int32_t y) {
     depth_plane_t plane = {face->z, face->dx, face->dy, face->low, face->high};
     if (face->is_steep) {
         const polygon_ring_t ring = frame_record_ring(t, frame_record(t, face->record));
@@ -132,52 +129,42 @@ void warnock_face_fill(tuile_t *t, const warnock_face_t *face, const window_t *w
     }
 }
 
-/* A triangle in a small window: pixel by pixel along its sides costs less than setting it up. */
-static void paint_small(tuile_t *t, const warnock_face_t *face, const window_t *window) {
-    const window_side_t *s = face->sides;
-    const bool gouraud = t->span_kind == SPAN_GOURAUD, ids = t->span_kind == SPAN_IDS;
+void warnock_face_bits(tuile_t *t, const warnock_face_t *face, const window_t *window, uint32_t bits) {
+    const int32_t width = window->right - window->left, stride = t->tile.stride_px;
+    const uint32_t row_bits = 0xffffffffu >> (WINDOW_MASK_PX - width);
+    const bool gouraud = t->span_kind == SPAN_GOURAUD && face->is_triangle, ids = t->span_kind == SPAN_IDS;
     const uint16_t *ramp = gouraud ? frame_ramp(t, face->value) : NULL;
-    uint32_t e0 = (uint32_t)window_side_at(&s[0], window->left, window->top),
-             e1 = (uint32_t)window_side_at(&s[1], window->left, window->top),
-             e2 = (uint32_t)window_side_at(&s[2], window->left, window->top);
+    const uint32_t value = face->value;
     uint32_t light = gouraud ? warnock_face_light(face, window->left, window->top) : 0;
-    size_t row = pixel_at(t, window->left, window->top);
-    for (int32_t y = window->top; y < window->bottom; y++, row += (size_t)t->tile.stride_px) {
-        uint32_t f0 = e0, f1 = e1, f2 = e2, shade = light;
-        size_t at = row;
-        for (int32_t x = window->left; x < window->right; x++, at++) {
-            if (!((f0 | f1 | f2) >> 31)) {
-                if (gouraud) {
-                    ((uint16_t *)t->tile.colour)[at] = ramp[shade >> 26];
-                } else if (ids) {
-                    ((uint32_t *)t->tile.colour)[at] = face->value;
-                } else {
-                    ((uint16_t *)t->tile.colour)[at] = (uint16_t)face->value;
-                }
+    uint8_t *row = (uint8_t *)t->tile.colour + pixel_at(t, window->left, window->top) * (ids ? 4u : 2u);
+    while (bits) {
+        uint32_t now = bits & row_bits, shade = light;
+        uint16_t *colour = (uint16_t *)(void *)row;
+        if (gouraud) {
+            for (; now; now >>= 1, colour++, shade += face->light.dx) {
+                if (now & 1) { *colour = ramp[shade >> 26]; }
             }
-            f0 += (uint32_t)s[0].a;
-            f1 += (uint32_t)s[1].a;
-            f2 += (uint32_t)s[2].a;
-            if (gouraud) { shade += face->light.dx; }
+            light += face->light.dy;
+        } else if (ids) {
+            for (uint32_t *id = (uint32_t *)(void *)row; now; now >>= 1, id++) {
+                if (now & 1) { *id = value; }
+            }
+        } else {
+            for (; now; now >>= 1, colour++) {
+                if (now & 1) { *colour = (uint16_t)value; }
+            }
         }
-        e0 += (uint32_t)s[0].b;
-        e1 += (uint32_t)s[1].b;
-        e2 += (uint32_t)s[2].b;
-        if (gouraud) { light += face->light.dy; }
+        if (width == WINDOW_MASK_PX) { return; }
+        bits >>= width;
+        row += (size_t)stride * (ids ? 4u : 2u);
     }
 }
 
-#define SMALL_PX 48 /* measured */
-
 void warnock_face_paint(tuile_t *t, const warnock_face_t *face, const window_t *window) {
-    window_t part = *window;
-    part.left = face->box.left > part.left ? face->box.left : part.left;
-    part.top = face->box.top > part.top ? face->box.top : part.top;
-    part.right = face->box.right < part.right ? face->box.right : part.right;
-    part.bottom = face->box.bottom < part.bottom ? face->box.bottom : part.bottom;
+    const window_t part = window_cut(&face->box, window);
     if (part.left >= part.right || part.top >= part.bottom) { return; }
-    if (face->is_triangle && (part.right - part.left) * (part.bottom - part.top) <= SMALL_PX) {
-        paint_small(t, face, &part);
+    if (window_area(&part) <= WINDOW_MASK_PX) {
+        warnock_face_bits(t, face, &part, warnock_face_mask(t, face, &part));
     } else {
         paint_rectangle(t, face->record, part.left, part.top, part.right, part.bottom);
     }

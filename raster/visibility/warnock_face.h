@@ -34,8 +34,13 @@ bool warnock_face_start(tuile_t *t, warnock_face_t *face, uint32_t number, const
 /* The bounding box of a record's face, in pixels. */
 window_t warnock_face_box(const tuile_t *t, const record_t *record);
 
-/* The depth that the z-buffer would compare at a pixel that the face covers, of any face. */
-uint16_t warnock_face_depth(const tuile_t *t, const warnock_face_t *face, int32_t x, int32_t y);
+uint16_t warnock_face_polygon_depth(const tuile_t *t, const warnock_face_t *face, int32_t x, int32_t y);
+
+/* The depth that the z-buffer would compare at a pixel that the face covers. */
+TUILE_INLINE uint16_t warnock_face_depth(const tuile_t *t, const warnock_face_t *face, int32_t x, int32_t y) {
+    if (TUILE_UNLIKELY(!face->is_triangle)) { return warnock_face_polygon_depth(t, face, x, y); }
+    return (uint16_t)(((uint32_t)face->z + (uint32_t)face->dx * (uint32_t)x + (uint32_t)face->dy * (uint32_t)y) >> 16);
+}
 
 /* Does `a` hide `b` at all pixels of the window that both cover? Never true when it does not; may be false when it does.
  * first: a wins at equal depth. */
@@ -59,6 +64,16 @@ TUILE_INLINE window_relation_t warnock_face_relation(const tuile_t *t, const war
     const polygon_ring_t ring = frame_record_ring(t, frame_record(t, face->record));
     return window_ring(&ring, window);
 }
+
+/* The pixels of a window that the face covers, as bits. */
+TUILE_INLINE uint32_t warnock_face_mask(const tuile_t *t, const warnock_face_t *face, const window_t *window) {
+    if (TUILE_LIKELY(face->is_triangle)) { return window_mask_triangle(face->sides, &face->box, window); }
+    const polygon_ring_t ring = frame_record_ring(t, frame_record(t, face->record));
+    return window_mask_ring(&ring, window);
+}
+
+/* The face into the pixels of a window that are told by bits. */
+void warnock_face_bits(tuile_t *t, const warnock_face_t *face, const window_t *window, uint32_t bits);
 
 /* The face into all pixels of a window, which it fills. */
 void warnock_face_fill(tuile_t *t, const warnock_face_t *face, const window_t *window);

@@ -80,6 +80,29 @@ TUILE_INLINE window_relation_t window_triangle(const window_side_t sides[3], con
 /* T3 and T4 of any polygon, by one walk round it. */
 window_relation_t window_ring(const polygon_ring_t *ring, const window_t *window);
 
+/* ---- windows of up to 32 pixels: what is covered, as bits of one word; pixel (x, y) is bit (y - top) * width + x - left ---- */
+
+#define WINDOW_MASK_PX 32
+
+TUILE_INLINE int32_t window_area(const window_t *window) {
+    return (window->right - window->left) * (window->bottom - window->top);
+}
+
+/* All pixels of a window. */
+TUILE_INLINE uint32_t window_mask_full(const window_t *window) { return 0xffffffffu >> (WINDOW_MASK_PX - window_area(window)); }
+
+/* Of a triangle, whose box is `box`. */
+uint32_t window_mask_triangle(const window_side_t sides[3], const window_t *box, const window_t *window);
+
+/* Of any polygon. */
+uint32_t window_mask_ring(const polygon_ring_t *ring, const window_t *window);
+
+/* What two windows share; right <= left or bottom <= top when that is nothing. */
+TUILE_INLINE window_t window_cut(const window_t *a, const window_t *b) {
+    return (window_t){a->left > b->left ? a->left : b->left, a->top > b->top ? a->top : b->top,
+                      a->right < b->right ? a->right : b->right, a->bottom < b->bottom ? a->bottom : b->bottom};
+}
+
 /* The pixels whose centres lie in the bounding box, by the fill rule. */
 window_t window_of_ring(const polygon_ring_t *ring);
 

@@ -1,5 +1,6 @@
 #!/bin/sh
 # Counts instructions by callgrind and prints a table and build/bench/bench.json. Called by `make bench`.
+# METHOD and VARIANT in the environment are handed on to the program.
 # Usage: bench.sh BENCH_PROGRAM OUTPUT_FOLDER WIDTHxHEIGHT TILE... -- MODEL...
 set -eu
 program=$1 out=$2 size=$3
@@ -20,6 +21,7 @@ for model in "$@"; do
             memory=${MEMORY:-4194304}
             valgrind --tool=callgrind --callgrind-out-file="$out/callgrind.out" --collect-atstart=no --toggle-collect=bench_frame \
                 --dump-line=no "$program" "$model" "$width" "$height" "${tile%x*}" "${tile#*x}" "$shade" "$memory" \
+                "${METHOD:-zbuffer}" "${VARIANT:-0}" \
                 >"$out/run.txt" 2>"$out/valgrind.txt" || { cat "$out/run.txt" "$out/valgrind.txt" >&2; exit 1; }
             faces=$(awk '/^faces/ { print $2 }' "$out/run.txt")
             frames=$(awk '/^faces/ { print $4 }' "$out/run.txt")
@@ -57,7 +59,7 @@ done
 awk 'BEGIN { printf "%-10s %-9s %-8s %-8s %7s %12s %10s %10s %10s %10s %10s\n", "model", "window", "tile", "shade", "faces",
              "instructions", "vertex", "setup", "span", "clear", "resolve" }
      { printf "%-10s %-9s %-8s %-8s %7d %12d %10d %10d %10d %10d %10d\n", $1, $2 "x" $3, $4, $5, $6, $7, $8, $9, $10, $11, $12 }' "$rows"
-awk 'BEGIN { print "[" }
-     { printf "%s  {\"target\": \"x86-64\", \"model\": \"%s\", \"width\": %d, \"height\": %d, \"tile\": \"%s\", \"method\": \"zbuffer\", \"shade\": \"%s\", \"faces\": %d, \"instructions\": %d, \"phases\": {\"vertex\": %d, \"setup\": %d, \"span\": %d, \"clear\": %d, \"resolve\": %d}}",
+awk -v method="${METHOD:-zbuffer}" 'BEGIN { print "[" }
+     { printf "%s  {\"target\": \"x86-64\", \"model\": \"%s\", \"width\": %d, \"height\": %d, \"tile\": \"%s\", \"method\": \"" method "\", \"shade\": \"%s\", \"faces\": %d, \"instructions\": %d, \"phases\": {\"vertex\": %d, \"setup\": %d, \"span\": %d, \"clear\": %d, \"resolve\": %d}}",
        (NR > 1 ? ",\n" : ""), $1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12 }
      END { print "\n]" }' "$rows" >"$out/bench.json"
