@@ -360,9 +360,9 @@ static int warnock_draw_tile(tuile_t *t, uint16_t row) {
     for (uint16_t list = t->uncarried; list != RECORD_NONE;) {
         const uint32_t number = list - 1u;
         const record_t *record = frame_record(t, number);
-        const window_t box = warnock_face_box(t, record);
+        window_t box;
         list = record->next;
-        if (window_misses(&tile, &box)) { continue; }
+        if (!warnock_face_box(t, record, &tile, &box)) { continue; }
         if (faces_bytes(s.count + 1) > room) { return FRAME_FULL; }
         if (warnock_face_start(t, &s.faces[s.count], number, &box)) { s.count++; }
     }

@@ -7,17 +7,6 @@
 /* Of a triangle: 1/4 step by which its gradients may err (fill/triangle.c), and their floors. */
 #define PLANE_ERROR 0x4100u
 
-window_t warnock_face_box(const tuile_t *t, const record_t *record) {
-    if (!frame_record_is_triangle(record)) {
-        const polygon_ring_t ring = frame_record_ring(t, record);
-        return window_of_ring(&ring);
-    }
-    const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
-    const int32_t left = v1->x < v2->x ? v1->x : v2->x, right = v1->x > v2->x ? v1->x : v2->x;
-    return (window_t){(int16_t)edge_row(v0->x < left ? v0->x : left), (int16_t)edge_row(v0->y),
-                      (int16_t)edge_row(v0->x > right ? v0->x : right), (int16_t)edge_row(v1->y > v2->y ? v1->y : v2->y)};
-}
-
 static void triangle_range(warnock_face_t *face, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2) {
     const uint32_t z0 = v0->depth_light >> 8, z1 = v1->depth_light >> 8, z2 = v2->depth_light >> 8;
     const uint32_t low = z1 < z2 ? z1 : z2, high = z1 > z2 ? z1 : z2;

@@ -31,8 +31,21 @@ typedef struct warnock_face {
 /* False when the face covers nothing. box: of the face. */
 bool warnock_face_start(tuile_t *t, warnock_face_t *face, uint32_t number, const window_t *box);
 
-/* The bounding box of a record's face, in pixels. */
-window_t warnock_face_box(const tuile_t *t, const record_t *record);
+/* The bounding box of a record's face, in pixels. False when it misses the tile. */
+TUILE_INLINE bool warnock_face_box(const tuile_t *t, const record_t *record, const window_t *tile, window_t *box) {
+    if (TUILE_UNLIKELY(!frame_record_is_triangle(record))) {
+        const polygon_ring_t ring = frame_record_ring(t, record);
+        *box = window_of_ring(&ring);
+        return !window_misses(tile, box);
+    }
+    const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+    const int32_t first = 16 * tile->left + 8, last = 16 * tile->right - 8, x0 = v0->x, x1 = v1->x, x2 = v2->x;
+    if ((x0 <= first && x1 <= first && x2 <= first) || (x0 > last && x1 > last && x2 > last)) { return false; }
+    const int32_t left = x1 < x2 ? x1 : x2, right = x1 > x2 ? x1 : x2;
+    *box = (window_t){(int16_t)edge_row(x0 < left ? x0 : left), (int16_t)edge_row(v0->y), (int16_t)edge_row(x0 > right ? x0 : right),
+                      (int16_t)edge_row(v1->y > v2->y ? v1->y : v2->y)};
+    return true; /* the record is in this row of tiles */
+}
 
 uint16_t warnock_face_polygon_depth(const tuile_t *t, const warnock_face_t *face, int32_t x, int32_t y);
 
