@@ -184,7 +184,7 @@ typedef enum tuile_warnock {
     TUILE_WARNOCK_SINGLE = 2,   /* a window that one face meets, before the background or a face behind it, is painted at once */
     TUILE_WARNOCK_BOX = 4,      /* windows that few faces meet are cut along the sides of a face's bounding box */
     TUILE_WARNOCK_SORTED = 8,   /* the faces of a tile are sorted by their nearest vertex */
-    TUILE_WARNOCK_PIXELS = 16,  /* a window of up to 2 x 2 pixels goes to pixels at once, without lists of its own */
+    TUILE_WARNOCK_PIXELS = 16, /* a window of up to 32 pixels goes to pixels at once: coverage as bits, depth where faces overlap */
 } tuile_warnock_t;
 
 /* Why a window was divided no further. */
@@ -222,7 +222,7 @@ typedef struct tuile_config {
     uint16_t tree_depth;              /* deepest tree of any model to be drawn (tree_depth), TUILE_TREE only; 0 = 64 */
     uint16_t tile_first, tile_step;   /* draw tiles first, first + step, ... in row-major order; step 0 = 1 */
     uint16_t row_first, row_end;      /* draw only the tiles that start in rows [first, end); end 0 = height */
-    uint8_t warnock;                  /* tuile_warnock_t; 0 = SINGLE | SORTED | PIXELS */
+    uint8_t warnock;                  /* tuile_warnock_t; 0 = SINGLE | BOX | PIXELS */
     const tuile_trace_t *trace;       /* NULL = none; outlives the renderer */
 } tuile_config_t;
 

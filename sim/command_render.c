@@ -27,6 +27,8 @@ static const char usage[] =
     "  --rotate 0|90|180|270    how the panel is held\n"
     "  --clock HZ               clock of the bus for pixels, like 40M; 0 asks for the panel's usual one\n"
     "  --method M               hidden-surface method: zbuffer (default), scanline, warnock, painter, tree\n"
+    "  --warnock V,V,...        how warnock divides: quarters alone, or any of single, box, sorted, pixels; by default "
+    "single,box,pixels\n"
     "  --shade flat|gouraud     flat by default\n"
     "  --memory 16K|auto        the renderer's memory; auto is enough for one pass\n"
     "  --tile WxH               tile size in pixels; by default whole rows, as many as suit the memory\n"
@@ -92,6 +94,31 @@ static bool parse_background(options_t *options, uint8_t background[3]) {
     background[0] = (uint8_t)(value >> 16);
     background[1] = (uint8_t)(value >> 8);
     background[2] = (uint8_t)value;
+    return true;
+}
+
+/* "single,box": tuile_warnock_t, or-ed. */
+static bool parse_warnock(options_t *options, uint8_t *variants) {
+    static const char *const names[] = {"quarters", "single", "box", "sorted", "pixels"};
+    const char *text = options_value(options), *at = text;
+    unsigned mask = 0;
+    if (!text) { return false; }
+    for (;;) {
+        const size_t length = strcspn(at, ",");
+        unsigned i = 0;
+        while (i < 5 && (strlen(names[i]) != length || strncmp(names[i], at, length) != 0)) {
+            i++;
+        }
+        if (i == 5) {
+            (void)command_fail("--warnock %s: wants quarters, single, box, sorted or pixels, or several with commas between", text);
+            options->failed = true;
+            return false;
+        }
+        mask |= 1u << i;
+        at += length;
+        if (*at++ == '\0') { break; }
+    }
+    *variants = (uint8_t)mask;
     return true;
 }
 
@@ -165,6 +192,8 @@ static int parse(render_t *r, int count, char **arguments) {
             (void)parse_clock(&options, &r->clock_hz);
         } else if (strcmp(argument, "--method") == 0) {
             if (options_choice(&options, &choice, options_methods)) { r->config.method = (uint8_t)choice; }
+        } else if (strcmp(argument, "--warnock") == 0) {
+            (void)parse_warnock(&options, &r->config.warnock);
         } else if (strcmp(argument, "--shade") == 0) {
             if (options_choice(&options, &choice, shades)) { r->config.shade = (uint8_t)choice; }
         } else if (strcmp(argument, "--memory") == 0) {
@@ -391,6 +420,10 @@ static void report_frame(const render_t *r, unsigned frame, const char *hash) {
         "     \"faces_clipped_away\": %u, \"faces_binned\": %u, \"faces_setup\": %u, \"faces_resumed\": %u,\n",
         s->faces_tested, s->faces_back, s->faces_degenerate, s->faces_outside, s->faces_clipped, s->faces_clipped_away,
         s->faces_binned, s->faces_setup, s->faces_resumed);
+    if (c->method == TUILE_WARNOCK) {
+        (void)fprintf(f, "     \"windows\": %u, \"windows_depth\": %u, \"windows_pixels\": %u, \"windows_waiting\": %u,\n",
+                      s->windows, s->windows_depth, s->windows_pixels, s->windows_waiting);
+    }
     (void)fprintf(f,
                   "     \"passes\": %u, \"tiles\": %u, \"tiles_narrow\": %u, \"size_bytes\": %u, \"least_bytes\": %u, "
                   "\"peak_bytes\": %u,\n"

@@ -63,7 +63,7 @@ static bool config_complete(tuile_config_t *c, size_t size_bytes) {
     if (c->tree_depth == 0) { c->tree_depth = 64; }
     if (c->tile_step == 0) { c->tile_step = 1; }
     if (c->row_end == 0) { c->row_end = c->height; }
-    if (c->warnock == 0) { c->warnock = TUILE_WARNOCK_SINGLE | TUILE_WARNOCK_SORTED | TUILE_WARNOCK_PIXELS; }
+    if (c->warnock == 0) { c->warnock = TUILE_WARNOCK_SINGLE | TUILE_WARNOCK_BOX | TUILE_WARNOCK_PIXELS; }
     return true;
 }
 

@@ -79,7 +79,9 @@ static void decide_pixel(const subdivision_t *s, const waiting_t *p) {
     uint32_t nearest = 0;
     for (uint32_t k = p->first; k < p->end; k++) {
         const uint32_t number = s->order[k];
-        if (k >= p->filling && warnock_face_relation(s->t, &s->faces[number], &p->window) != WINDOW_SURROUNDING) { continue; }
+        if (k >= p->filling && warnock_face_relation(s->t, &s->faces[number], &p->window, false) != WINDOW_SURROUNDING) {
+            continue;
+        }
         const uint32_t key = nearness(s, number, x, y, turn);
         nearest = key > nearest ? key : nearest;
     }
@@ -89,8 +91,8 @@ static void decide_pixel(const subdivision_t *s, const waiting_t *p) {
 
 #define MASK_FACES 32
 
-/* A window of up to 32 pixels that up to 32 faces meet: each face tells its pixels as the bits of a word. A pixel that one face covers
- * is that face's; only for those that several cover are depths compared. */
+/* A window of up to 32 pixels that up to 32 faces meet: each face tells its pixels as the bits of a word. A pixel that one face
+ * covers is that face's; only for those that several cover are depths compared. */
 static void decide_pixels(const subdivision_t *s, const waiting_t *p) {
     const window_t *w = &p->window;
     const uint32_t turn = tie_turn(s), count = (uint32_t)(p->end - p->first);
@@ -98,8 +100,7 @@ static void decide_pixels(const subdivision_t *s, const waiting_t *p) {
     uint32_t masks[MASK_FACES], covered = 0, again = 0;
     for (uint32_t k = 0; k < count; k++) {
         const warnock_face_t *face = &s->faces[order[k]];
-        const uint32_t mask =
-            k < (uint32_t)(p->filling - p->first) ? window_mask_full(w) : warnock_face_mask(s->t, face, w);
+        const uint32_t mask = k < (uint32_t)(p->filling - p->first) ? window_mask_full(w) : warnock_face_mask(s->t, face, w);
         again |= covered & mask;
         covered |= mask;
         masks[k] = mask;
@@ -161,6 +162,7 @@ TUILE_INLINE void front_take(const subdivision_t *s, front_t *front, uint32_t nu
 /* Makes the lists of a part from those of the window that it is a part of. */
 static front_t sort_out(const subdivision_t *s, waiting_t *p) {
     const window_t w = p->window;
+    const bool brief = s->variant & TUILE_WARNOCK_PIXELS;
     uint16_t *order = s->order;
     uint32_t filling = p->filling, end = p->filling, first = p->first;
     front_t front = {s->count, 0};
@@ -172,7 +174,7 @@ static front_t sort_out(const subdivision_t *s, waiting_t *p) {
         const warnock_face_t *face = &s->faces[number];
         /* A whole step behind the front: no need to know where it lies. */
         if (face->high < (front.least & 0xffff0000u)) { continue; }
-        const window_relation_t relation = warnock_face_relation(s->t, face, &w);
+        const window_relation_t relation = warnock_face_relation(s->t, face, &w, brief);
         if (relation == WINDOW_DISJOINT) { continue; }
         swap(&order[end], &order[k]);
         if (relation == WINDOW_SURROUNDING) {
@@ -235,7 +237,7 @@ TUILE_INLINE void cut_offer(int32_t *cut, int32_t at, int32_t low, int32_t high,
     }
 }
 
-#define BOX_FACES 4 /* measured */
+#define BOX_FACES 4 /* measured: with fewer the room costs more, with more the mesh does */
 
 /* Where a window is cut: a column and a row where its right and lower parts begin, or its right and lower end where it is not. A
  * side that is twice the other is halved alone, so that parts become squares. */

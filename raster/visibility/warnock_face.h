@@ -42,8 +42,8 @@ TUILE_INLINE bool warnock_face_box(const tuile_t *t, const record_t *record, con
     const int32_t first = 16 * tile->left + 8, last = 16 * tile->right - 8, x0 = v0->x, x1 = v1->x, x2 = v2->x;
     if ((x0 <= first && x1 <= first && x2 <= first) || (x0 > last && x1 > last && x2 > last)) { return false; }
     const int32_t left = x1 < x2 ? x1 : x2, right = x1 > x2 ? x1 : x2;
-    *box = (window_t){(int16_t)edge_row(x0 < left ? x0 : left), (int16_t)edge_row(v0->y), (int16_t)edge_row(x0 > right ? x0 : right),
-                      (int16_t)edge_row(v1->y > v2->y ? v1->y : v2->y)};
+    *box = (window_t){(int16_t)edge_row(x0 < left ? x0 : left), (int16_t)edge_row(v0->y),
+                      (int16_t)edge_row(x0 > right ? x0 : right), (int16_t)edge_row(v1->y > v2->y ? v1->y : v2->y)};
     return true; /* the record is in this row of tiles */
 }
 
@@ -69,10 +69,16 @@ TUILE_INLINE uint32_t warnock_face_least(const warnock_face_t *face, const windo
     return z < face->low ? face->low : z > face->high ? face->high : (uint32_t)z;
 }
 
-/* T1 to T4. A box that is the window itself says nothing: the face may fill it. */
-TUILE_INLINE window_relation_t warnock_face_relation(const tuile_t *t, const warnock_face_t *face, const window_t *window) {
-    if (window_misses(window, &face->box)) { return WINDOW_DISJOINT; }
-    if (window_holds(window, &face->box) && !window_holds(&face->box, window)) { return WINDOW_INTERSECTING; }
+/* T1 to T4. A box that is the window itself says nothing: the face may fill it. brief: a face that is smaller than the window both
+ * ways cannot fill it; whether it misses the window all the same is left to the window's parts. */
+TUILE_INLINE window_relation_t warnock_face_relation(const tuile_t *t, const warnock_face_t *face, const window_t *window,
+                                                     bool brief) {
+    const window_t *box = &face->box;
+    if (window_misses(window, box)) { return WINDOW_DISJOINT; }
+    if (window_holds(window, box) && !window_holds(box, window)) { return WINDOW_INTERSECTING; }
+    if (brief && box->right - box->left < window->right - window->left && box->bottom - box->top < window->bottom - window->top) {
+        return WINDOW_INTERSECTING;
+    }
     if (TUILE_LIKELY(face->is_triangle)) { return window_triangle(face->sides, window); }
     const polygon_ring_t ring = frame_record_ring(t, frame_record(t, face->record));
     return window_ring(&ring, window);

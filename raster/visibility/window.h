@@ -84,9 +84,7 @@ window_relation_t window_ring(const polygon_ring_t *ring, const window_t *window
 
 #define WINDOW_MASK_PX 32
 
-TUILE_INLINE int32_t window_area(const window_t *window) {
-    return (window->right - window->left) * (window->bottom - window->top);
-}
+TUILE_INLINE int32_t window_area(const window_t *window) { return (window->right - window->left) * (window->bottom - window->top); }
 
 /* All pixels of a window. */
 TUILE_INLINE uint32_t window_mask_full(const window_t *window) { return 0xffffffffu >> (WINDOW_MASK_PX - window_area(window)); }
