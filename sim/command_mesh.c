@@ -8,14 +8,15 @@
 #include <string.h>
 
 static const char usage[] =
-    "Usage: tuile mesh IN -o OUT.c|OUT.tuile [--name NAME] [--max-faces N]\n"
+    "Usage: tuile mesh IN -o OUT.c|OUT.tuile [--name NAME] [--max-faces N] [--triangles]\n"
     "\n"
     "Reads a model (OBJ, glTF, PLY, STL, 3DS, Collada and what else Assimp knows) and writes it quantised, clustered and checked,\n"
     "as a C file with one const object for flash or as a .tuile file with the same bytes.\n"
     "\n"
     "  -o FILE          where to write; the ending decides the form\n"
     "  --name NAME      C identifier of the object (.c only); by default from FILE\n"
-    "  --max-faces N    simplify to at most N triangles\n";
+    "  --max-faces N    simplify to at most N triangles\n"
+    "  --triangles      cut polygons into triangles (they keep the polygon's number); by default polygons stay polygons\n";
 
 static void mesh_report_print(const mesh_report_t *report) {
     (void)printf("vertices %zu, faces %zu (%zu n-gons), clusters %zu, %zu bytes\n", report->vertices, report->faces,
@@ -28,6 +29,7 @@ int command_mesh(int count, char **arguments) {
     const char *in = NULL, *out = NULL, *name = NULL, *argument;
     long max_faces = 0;
     options_t options;
+    mesh_options_t mesh_options = {0};
     sim_error_t error = {""};
     uint8_t *bytes = NULL;
     size_t size_bytes = 0;
@@ -44,6 +46,8 @@ int command_mesh(int count, char **arguments) {
             name = options_value(&options);
         } else if (strcmp(argument, "--max-faces") == 0) {
             (void)options_integer(&options, &max_faces, 1, 100000000);
+        } else if (strcmp(argument, "--triangles") == 0) {
+            mesh_options.triangles = true;
         } else if (strcmp(argument, "--help") == 0) {
             (void)fputs(usage, stdout);
             return command_finish();
@@ -56,7 +60,9 @@ int command_mesh(int count, char **arguments) {
         (void)fputs(usage, stderr);
         return EXIT_USAGE;
     }
-    if (mesh_load(in, (size_t)max_faces, &bytes, &size_bytes, &report, &error) != 0) { return command_fail("%s", error.text); }
+    if (mesh_load(in, (size_t)max_faces, &mesh_options, &bytes, &size_bytes, &report, &error) != 0) {
+        return command_fail("%s", error.text);
+    }
     const int failed = mesh_write(bytes, size_bytes, out, name, &error);
     free(bytes);
     if (failed) { return command_fail("%s", error.text); }

@@ -33,6 +33,7 @@ static const char usage[] =
     "  --memory 16K|auto        the renderer's memory; auto is enough for one pass\n"
     "  --tile WxH               tile size in pixels; by default whole rows, as many as suit the memory\n"
     "  --max-faces N            simplify the model first\n"
+    "  --triangles              cut polygons into triangles, which keep the polygon's number\n"
     "  --frames N               number of frames, 1 by default\n"
     "  --spin DEG               degrees per frame about --up through --at; by default a full turn in all frames\n"
     "  --eye X,Y,Z --at X,Y,Z --up X,Y,Z   camera, in model units; by default the model is framed\n"
@@ -61,6 +62,7 @@ typedef struct render {
     show_view_t show;
     double pick_at[2];
     tuile_config_t config;
+    mesh_options_t mesh_options;
     view_options_t view_options;
 
     uint8_t *bytes;
@@ -209,6 +211,8 @@ static int parse(render_t *r, int count, char **arguments) {
             (void)options_tile(&options, &r->config.tile_width, &r->config.tile_height);
         } else if (strcmp(argument, "--max-faces") == 0) {
             (void)options_integer(&options, &r->max_faces, 1, 100000000);
+        } else if (strcmp(argument, "--triangles") == 0) {
+            r->mesh_options.triangles = true;
         } else if (strcmp(argument, "--frames") == 0) {
             (void)options_integer(&options, &r->frames, 1, 100000);
         } else if (strcmp(argument, "--spin") == 0) {
@@ -304,7 +308,7 @@ static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t 
 static int set_up(render_t *r) {
     size_t size_bytes;
     mesh_report_t report;
-    if (mesh_load(r->model_path, (size_t)r->max_faces, &r->bytes, &size_bytes, &report, &r->error) != 0) {
+    if (mesh_load(r->model_path, (size_t)r->max_faces, &r->mesh_options, &r->bytes, &size_bytes, &report, &r->error) != 0) {
         return command_fail("%s", r->error.text);
     }
     int result = tuile_model_open(&r->model, r->bytes, size_bytes);

@@ -52,6 +52,7 @@ int mesh_simplify(mesh_t *mesh, size_t max_faces, sim_error_t *error);
 
 typedef struct mesh_options {
     bool keep_order;  /* faces stay in the order given (text scenes: ties are decided by it) */
+    bool triangles;   /* every polygon is cut into triangles, which keep its source number */
     bool keep_planar; /* take polygons for planar: no test, no split for it; a mesh without normals is then lit flat */
     double step;      /* quantisation step in model units, offset 0; 0 = the finest that holds the model */
 } mesh_options_t;
@@ -61,7 +62,7 @@ typedef struct mesh_report {
     size_t faces;
     size_t polygons;   /* faces with more than three corners among them */
     size_t non_planar; /* polygons cut into triangles because they are not planar */
-    size_t split;      /* polygons cut for another reason: over 255 corners, or not convex and lit unevenly */
+    size_t split;      /* polygons cut for another reason: over 255 corners, not convex and lit unevenly, or as asked for */
     size_t skipped;    /* degenerate faces left out, by the importer or because they have no area once quantised */
     size_t clusters;
     size_t size_bytes;
@@ -79,8 +80,9 @@ int mesh_compile(const mesh_t *mesh, const mesh_options_t *options, uint8_t **by
 int mesh_write(const uint8_t *bytes, size_t size_bytes, const char *path, const char *name, sim_error_t *error);
 
 /* Loads whatever a user may name: .tuile bytes as they are (known by their first four), anything else through import and compile
- * (max_faces 0 = all; a .tuile with more faces than that is refused). report may be NULL; of a .tuile it has the counts that the
- * file tells. *bytes is malloc'ed, 4-byte aligned. */
-int mesh_load(const char *path, size_t max_faces, uint8_t **bytes, size_t *size_bytes, mesh_report_t *report, sim_error_t *error);
+ * (max_faces 0 = all). A .tuile that has more faces than that, or polygons where options want triangles, is refused. options and
+ * report may be NULL; of a .tuile it has the counts that the file tells. *bytes is malloc'ed, 4-byte aligned. */
+int mesh_load(const char *path, size_t max_faces, const mesh_options_t *options, uint8_t **bytes, size_t *size_bytes,
+              mesh_report_t *report, sim_error_t *error);
 
 #endif

@@ -309,7 +309,7 @@ static bool quantise_face(work_t *w, const mesh_face_t *face) {
     solid_t *solid = w->solid;
     size_t count = gather(w, face);
     bool bent = count > 3 && !w->options->keep_planar && !planar(w->mesh, face, solid->step_value);
-    bool split = bent || count > MESH_CORNERS_MAX;
+    bool split = bent || count > MESH_CORNERS_MAX || (w->options->triangles && count > 3);
     if (count > 3 && !split && !evenly_lit(w, count)) { /* interpolated light is only right on triangles: no fan, no single face */
         int64_t normal[3];
         newell((const int32_t(*)[3])w->points, count, normal);
