@@ -119,11 +119,39 @@ static void test_degenerate_faces(void **state) {
 
 typedef struct outline {
     const char *what;
-    int32_t points[16][3];
+    int32_t points[24][3];
     size_t count;
     long triangles; /* -1: any number */
     int64_t twice;  /* area */
 } outline_t;
+
+/* The directed sides of triangles and, backwards, of the outline they were cut from, cancel out, so that each triangle's sides are
+ * sides of a neighbour or of the outline, whole. All triangles being turned like the outline, each point of it is then covered
+ * once: no overlap, no gap, no T-junction. */
+static bool conforms(const int32_t (*points)[3], size_t count, const uint32_t (*triangles)[3], long made) {
+    const size_t sides = 3 * (size_t)made + count;
+    const int32_t *(*side)[2] = malloc((sides + 1) * sizeof *side);
+    bool good = side != NULL;
+    for (size_t s = 0; good && s < sides; s++) {
+        const size_t t = s / 3, c = s - 3 * (size_t)made;
+        const bool ring = s >= 3 * (size_t)made;
+        side[s][ring] = points[ring ? c : triangles[t][s % 3]];
+        side[s][!ring] = points[ring ? (c + 1) % count : triangles[t][(s + 1) % 3]];
+    }
+    for (size_t s = 0; good && s < sides; s++) {
+        const size_t bytes = 3 * sizeof(int32_t);
+        if (!side[s][0] || memcmp(side[s][0], side[s][1], bytes) == 0) { continue; }
+        size_t other = s + 1;
+        while (other < sides &&
+               (!side[other][0] || memcmp(side[s][0], side[other][1], bytes) || memcmp(side[s][1], side[other][0], bytes))) {
+            other++;
+        }
+        good = other < sides;
+        if (good) { side[other][0] = NULL; }
+    }
+    free((void *)side);
+    return good;
+}
 
 static void test_triangulate(void **state) {
     (void)state;
@@ -144,6 +172,66 @@ static void test_triangulate(void **state) {
          10,
          8,
          144},
+        {"a hole whose bridge begins in the middle of a side, with a corner twice",
+         {{0, 0, 0},
+          {9, 0, 0},
+          {9, 9, 0},
+          {0, 9, 0},
+          {0, 3, 0},
+          {3, 3, 0},
+          {3, 6, 0},
+          {3, 6, 0},
+          {6, 6, 0},
+          {6, 3, 0},
+          {4, 3, 0},
+          {3, 3, 0},
+          {0, 3, 0}},
+         13,
+         -1,
+         144},
+        {"two holes, one bridged to the other, all in line",
+         {{0, 0, 0},
+          {12, 0, 0},
+          {12, 6, 0},
+          {0, 6, 0},
+          {0, 2, 0},
+          {2, 2, 0},
+          {2, 4, 0},
+          {4, 4, 0},
+          {4, 2, 0},
+          {6, 2, 0},
+          {6, 4, 0},
+          {8, 4, 0},
+          {8, 2, 0},
+          {6, 2, 0},
+          {4, 2, 0},
+          {2, 2, 0},
+          {0, 2, 0}},
+         17,
+         -1,
+         128},
+        {"corners in line on every side, twice each",
+         {{0, 0, 0},
+          {2, 0, 0},
+          {2, 0, 0},
+          {5, 0, 0},
+          {5, 0, 0},
+          {5, 1, 0},
+          {5, 5, 0},
+          {5, 5, 0},
+          {3, 5, 0},
+          {0, 5, 0},
+          {0, 3, 0},
+          {0, 3, 0},
+          {0, 1, 0}},
+         13,
+         -1,
+         50},
+        {"a spike inwards and a spike of two parts",
+         {{0, 0, 0}, {6, 0, 0}, {6, 3, 0}, {3, 3, 0}, {6, 3, 0}, {6, 6, 0}, {0, 6, 0}, {0, 9, 0}, {0, 8, 0}, {0, 9, 0}, {0, 6, 0}},
+         11,
+         -1,
+         72},
         {"one that touches itself", {{0, 0, 0}, {4, 0, 0}, {2, 2, 0}, {4, 4, 0}, {0, 4, 0}, {2, 2, 0}}, 6, -1, 16},
         {"no area", {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {5, 5, 5}}, 4, 0, 0},
     };
@@ -151,8 +239,8 @@ static void test_triangulate(void **state) {
         const outline_t *outline = &outlines[o];
         for (int axis = 0; axis < 3; axis++) {
             for (size_t turn = 0; turn < outline->count; turn++) { /* from every side, beginning anywhere */
-                int32_t points[16][3];
-                uint32_t triangles[16][3];
+                int32_t points[24][3];
+                uint32_t triangles[24][3];
                 int64_t twice = 0;
                 for (size_t i = 0; i < outline->count; i++) {
                     for (int k = 0; k < 3; k++) {
@@ -166,6 +254,9 @@ static void test_triangulate(void **state) {
                     int64_t area = (int64_t)(b[x] - a[x]) * (c[y] - a[y]) - (int64_t)(b[y] - a[y]) * (c[x] - a[x]);
                     assert_true(area > 0);
                     twice += area;
+                }
+                if (count && !conforms((const int32_t(*)[3])points, outline->count, (const uint32_t(*)[3])triangles, count)) {
+                    fail_msg("%s from corner %zu: sides of triangles that are no sides of others", outline->what, turn);
                 }
                 if (twice != outline->twice || (outline->triangles >= 0 && count != outline->triangles)) {
                     fail_msg("%s from corner %zu: %ld triangles with twice the area %lld", outline->what, turn, count,
@@ -204,10 +295,99 @@ static void test_triangulate_stars(void **state) {
     }
 }
 
+/* A star with a star-shaped hole, written as one ring with a bridge from any corner, with corners repeated and corners in the
+ * middle of sides: cut exactly. */
+static void test_triangulate_rings(void **state) {
+    (void)state;
+    enum { CORNERS = 24, MOST = 4 * (2 * CORNERS + 2) };
+    for (int round = 0; round < CHECK_ROUNDS(600); round++) {
+        int32_t corners[2 * CORNERS + 2][3] = {{0}}, points[MOST][3];
+        uint32_t triangles[MOST][3];
+        int64_t whole = 0, sum = 0;
+        size_t count = 0;
+        const int start = round % CORNERS;
+        for (int i = 0; i < 2 * CORNERS + 2; i++) { /* once round outside, from `start` to itself, then back inside */
+            const bool inside = i > CORNERS;
+            const int spoke = start + (inside ? 2 * CORNERS + 1 - i : i);
+            const double angle = 2 * 3.14159265358979 * spoke / CORNERS;
+            /* even, for the corners in the middle; the last corner of each ring is its first */
+            const double radius = 5e5 * (inside ? 4 + 3 * decoder_random_unit() : 14 + 5 * decoder_random_unit());
+            corners[i][0] = 2 * (int32_t)(radius * cos(angle));
+            corners[i][1] = 2 * (int32_t)(radius * sin(angle));
+        }
+        memcpy(corners[CORNERS], corners[0], sizeof corners[0]);
+        memcpy(corners[2 * CORNERS + 1], corners[CORNERS + 1], sizeof corners[0]);
+        for (int i = 0; i < 2 * CORNERS + 2; i++) {
+            const int32_t *p = corners[i], *q = corners[(i + 1) % (2 * CORNERS + 2)];
+            const bool bridge = i == CORNERS || i == 2 * CORNERS + 1;
+            const bool middle = bridge ? round % 2 : decoder_random_unit() > 0.3;
+            for (int n = decoder_random_unit() > 0.5 ? 2 : 1; n > 0; n--) {
+                memcpy(points[count++], p, sizeof *points);
+            }
+            for (int k = 0; middle && k < 3; k++) {
+                points[count][k] = (p[k] + q[k]) / 2;
+            }
+            count += middle;
+            whole += (int64_t)p[0] * q[1] - (int64_t)p[1] * q[0];
+        }
+        const long made = mesh_triangulate((const int32_t(*)[3])points, count, triangles);
+        for (long t = 0; t < made; t++) {
+            const int32_t *a = points[triangles[t][0]], *b = points[triangles[t][1]], *c = points[triangles[t][2]];
+            const int64_t area = (int64_t)(b[0] - a[0]) * (c[1] - a[1]) - (int64_t)(b[1] - a[1]) * (c[0] - a[0]);
+            assert_true(area > 0);
+            sum += area;
+        }
+        assert_true(sum == whole);
+        assert_true(conforms((const int32_t(*)[3])points, count, (const uint32_t(*)[3])triangles, made));
+    }
+}
+
+/* Asked for, every polygon is cut: its triangles keep number and colour, and stand in the order of the polygons where order is
+ * kept. */
+static void test_triangles_when_asked(void **state) {
+    (void)state;
+    const mesh_options_t cut = {.triangles = true}, in_order = {.triangles = true, .keep_order = true};
+    compiled_t c = decoder_compile_file(folder_put_text("cube.obj", DECODER_CUBE_VERTICES DECODER_CUBE_FACES), &cut);
+    uint32_t made[6] = {0};
+    assert_int_equal(c.report.faces, 12);
+    assert_int_equal(c.report.polygons, 0);
+    assert_int_equal(c.report.split, 6);
+    for (uint32_t f = 0; f < c.model.face_count; f++) {
+        assert_int_equal(c.model.faces[f].corners, 3);
+        made[c.model.faces[f].source]++;
+    }
+    for (int i = 0; i < 6; i++) {
+        assert_int_equal(made[i], 2);
+    }
+    decoder_drop(&c);
+    c = decoder_compile_file(folder_path("cube.obj"), NULL);
+    assert_int_equal(c.report.faces, 6);
+    decoder_drop(&c);
+    c = decoder_compile_file(folder_path("cube.obj"), &in_order);
+    for (uint32_t f = 0; f < 12; f++) {
+        assert_int_equal(c.model.faces[f].source, f / 2);
+    }
+    /* What is compiled stays as it is: with polygons in it there are no triangles to be had. */
+    sim_error_t error = {""};
+    uint8_t *bytes;
+    size_t size_bytes;
+    assert_int_equal(mesh_write(c.bytes, c.size_bytes, folder_path("cube.tuile"), NULL, &error), 0);
+    assert_int_equal(mesh_load(folder_path("cube.tuile"), 0, &cut, &bytes, &size_bytes, NULL, &error), 0);
+    free(bytes);
+    decoder_drop(&c);
+    c = decoder_compile_file(folder_path("cube.obj"), NULL);
+    assert_int_equal(mesh_write(c.bytes, c.size_bytes, folder_path("cube.tuile"), NULL, &error), 0);
+    assert_int_equal(mesh_load(folder_path("cube.tuile"), 0, &cut, &bytes, &size_bytes, NULL, &error), -1);
+    assert_non_null(strstr(error.text, "polygons"));
+    decoder_drop(&c);
+}
+
 int main(void) {
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_concave),          cmocka_unit_test(test_non_planar),  cmocka_unit_test(test_many_corners),
-        cmocka_unit_test(test_degenerate_faces), cmocka_unit_test(test_triangulate), cmocka_unit_test(test_triangulate_stars),
+        cmocka_unit_test(test_concave),           cmocka_unit_test(test_non_planar),
+        cmocka_unit_test(test_many_corners),      cmocka_unit_test(test_degenerate_faces),
+        cmocka_unit_test(test_triangulate),       cmocka_unit_test(test_triangulate_stars),
+        cmocka_unit_test(test_triangulate_rings), cmocka_unit_test(test_triangles_when_asked),
     };
     return cmocka_run_group_tests_name("mesh polygons", tests, folder_make, folder_remove);
 }
