@@ -1,5 +1,5 @@
-/* Each view draws the frame twice with a trace: once for its colours, once for the ids of its faces, and paints what it learnt over the
- * darkened picture. */
+/* Each view draws the frame twice with a trace: once for its colours, once for the ids of its faces, and paints what it learnt over
+ * the darkened picture. */
 #include "show.h"
 
 #include "options.h"
@@ -52,9 +52,7 @@ static void on_tile(void *context, unsigned left, unsigned top, unsigned right, 
     watch_t *w = context;
     if (!w->counts || w->failed) { return; }
     w->failed = !reserve(&w->tiles, &w->tile_capacity, w->tile_count + 1, sizeof *w->tiles);
-    if (!w->failed) {
-        w->tiles[w->tile_count++] = (tile_t){(uint16_t)left, (uint16_t)top, (uint16_t)right, (uint16_t)bottom, 0};
-    }
+    if (!w->failed) { w->tiles[w->tile_count++] = (tile_t){(uint16_t)left, (uint16_t)top, (uint16_t)right, (uint16_t)bottom, 0}; }
 }
 
 static void on_face(void *context, uint32_t number, uint32_t id) {
@@ -82,8 +80,7 @@ static void on_window(void *context, unsigned left, unsigned top, unsigned right
     if (!w->counts || w->failed) { return; }
     w->failed = !reserve(&w->windows, &w->window_capacity, w->window_count + 1, sizeof *w->windows);
     if (!w->failed) {
-        w->windows[w->window_count++] =
-            (window_t){(uint16_t)left, (uint16_t)top, (uint16_t)right, (uint16_t)bottom, (uint8_t)why};
+        w->windows[w->window_count++] = (window_t){(uint16_t)left, (uint16_t)top, (uint16_t)right, (uint16_t)bottom, (uint8_t)why};
     }
 }
 
@@ -273,8 +270,7 @@ static void show_windows(const watch_t *w, const sim_picture_t *picture, unsigne
 /* A pixel and its neighbour belong to pieces of one face. */
 static bool is_cut(const watch_t *w, const tuile_model_t *model, size_t a, size_t b) {
     if (w->ids[a] == 0 || w->ids[b] == 0 || w->last[a] == w->last[b]) { return false; }
-    return w->ids[a] == w->ids[b] ||
-           tuile_model_source_face(model, w->ids[a] - 1) == tuile_model_source_face(model, w->ids[b] - 1);
+    return w->ids[a] == w->ids[b] || tuile_model_source_face(model, w->ids[a] - 1) == tuile_model_source_face(model, w->ids[b] - 1);
 }
 
 static void show_order(const watch_t *w, const tuile_model_t *model, const sim_picture_t *picture, unsigned zoom, char *summary,
@@ -298,7 +294,8 @@ static void show_order(const watch_t *w, const tuile_model_t *model, const sim_p
             }
         }
     }
-    (void)snprintf(summary, size, "order: %u faces from back (dark) to front (bright), cuts in white; %u splits in this frame, %u tree nodes",
+    (void)snprintf(summary, size,
+                   "order: %u faces from back (dark) to front (bright), cuts in white; %u splits in this frame, %u tree nodes",
                    w->number_max, stats->splits, stats->nodes);
 }
 

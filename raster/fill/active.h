@@ -1,11 +1,11 @@
 /* The active edge list of document 002 (S14), of one face: the sides that cross the row that is being drawn, from left to right.
  *
  * An entry is the document's (xc, Δx, Δyc, zc), in integers that lose nothing:
- *   xc, Δx  an edge_t. The crossing is x - (d - 1 - n) / d, where x is the first pixel whose centre is not left of it; Δx is q + r / d.
- *   Δyc     the rows that are left to the lower end. At 0 the side has ended: the row is no longer its own, and the document keeps it
- *           there once more unless another side goes on from its end. Whoever draws passes over it.
- *   zc      kept where a span may start, that is on odd ranks: the plane's value at the centre of pixel x, by which all pixels of the
- *           span are stepped. A row further down it grows by dy, and by dx for each pixel that x moved: the document's
+ *   xc, Δx  an edge_t. The crossing is x - (d - 1 - n) / d, where x is the first pixel whose centre is not left of it; Δx is q + r
+ * / d. Δyc     the rows that are left to the lower end. At 0 the side has ended: the row is no longer its own, and the document
+ * keeps it there once more unless another side goes on from its end. Whoever draws passes over it. zc      kept where a span may
+ * start, that is on odd ranks: the plane's value at the centre of pixel x, by which all pixels of the span are stepped. A row
+ * further down it grows by dy, and by dx for each pixel that x moved: the document's
  *           -(aΔx + b) / c in its two whole-pixel values. At the crossing itself it is  z - dx (d - 1 - n) / d.
  * B, the document's table of sides by the row where they begin, is the ring itself, walked on those rows where a side begins.
  *

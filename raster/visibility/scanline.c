@@ -5,13 +5,13 @@
  *   tile memory   2 w, rounded up to 64, the depth of one line; 2 h, the buckets: faces by the row where they begin
  *   free room     24; 56 for each face that is active at once, 40 for each of its sides that the line crosses: 136 a triangle
  *
- * Faces and edges lie in a pool in the free room. Those active are a list in the order of their records, so that the first of equals
- * wins by coming first, as with the z-buffer: coverage, depth and light are the same numbers. Newcomers are merged into that list
- * while a line is drawn, and faces that end leave it.
+ * Faces and edges lie in a pool in the free room. Those active are a list in the order of their records, so that the first of
+ * equals wins by coming first, as with the z-buffer: coverage, depth and light are the same numbers. Newcomers are merged into that
+ * list while a line is drawn, and faces that end leave it.
  *
- * One column (strips): the active faces go on into the next row of tiles, as though the window had not been cut. Several columns: the
- * buckets stay as they are for the whole row of tiles, and each tile begins with an empty list; a face that began higher up enters it
- * on the tile's first row.
+ * One column (strips): the active faces go on into the next row of tiles, as though the window had not been cut. Several columns:
+ * the buckets stay as they are for the whole row of tiles, and each tile begins with an empty list; a face that began higher up
+ * enters it on the tile's first row.
  */
 #include "../tune.h"
 
@@ -144,7 +144,8 @@ typedef struct line {
     int32_t left, right;
 } line_t;
 
-TUILE_INLINE void span_draw(tuile_t *t, const line_t *line, const face_t *face, int32_t from, int32_t count, uint64_t z, bool last) {
+TUILE_INLINE void span_draw(tuile_t *t, const line_t *line, const face_t *face, int32_t from, int32_t count, uint64_t z,
+                            bool last) {
     const int32_t at = from - line->left;
     uint16_t *depth = line->depth + at, *colour = (uint16_t *)(void *)line->colour + at;
     if (t->span_kind == SPAN_GOURAUD && !face->polygon) {
@@ -253,7 +254,8 @@ static void sweep_release(tuile_t *t, sweep_t *sweep) {
     t->uncarried = list_merge(t, t->uncarried, list);
 }
 
-/* Moves the lists down to tile row `row`: t->uncarried has the faces without a state that began above it, and some that have ended. */
+/* Moves the lists down to tile row `row`: t->uncarried has the faces without a state that began above it, and some that have ended.
+ */
 static void rows_leave(tuile_t *t, sweep_t *sweep, uint16_t row) {
     if (t->row == row) { return; }
     sweep_release(t, sweep);
