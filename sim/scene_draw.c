@@ -43,7 +43,7 @@ static bool snap(const drawer_t *d, const corner_t *p, int32_t pixel[2]) {
             place = floor_divide(centre[k] * p->z + camera->focal_x * at[k], p->z * 65536);
         } else { /* w = 1; -32 <= exponent <= 14 */
             const int128_t unit = (int128_t)1 << 48;
-            place = floor_divide(((int128_t)centre[k] << 32) + at[k] * ((int128_t)1 << (48 + d->exponent)), unit);
+            place = floor_divide(centre[k] * ((int128_t)1 << 32) + at[k] * ((int128_t)1 << (48 + d->exponent)), unit);
         }
         if (place < -LINE_RANGE || place > LINE_RANGE) { return false; }
         pixel[k] = (int32_t)place;
@@ -83,7 +83,6 @@ static int cut_and_add(drawer_t *d, const corner_t *corners, int count, uint32_t
         const int128_t a = before_near(d, p), b = before_near(d, q);
         if (a >= 0) { kept[left++] = *p; }
         if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
-            if (count == 2 && i == 1) { break; } /* there and back */
             const int128_t u = b < 0 ? -b : b, v = a < 0 ? -a : a;
             kept[left++] = (corner_t){p->x * u + q->x * v, p->y * u + q->y * v, p->z * u + q->z * v, u + v};
         }
@@ -92,7 +91,8 @@ static int cut_and_add(drawer_t *d, const corner_t *corners, int count, uint32_t
         const corner_t part[3] = {kept[0], kept[i - 1], kept[i]};
         if (add(d, part, 3, face)) { return -1; }
     }
-    return count == 2 && left > 0 ? add(d, kept, left, face) : 0;
+    /* Of a line the way back is met, too: only the first two count. */
+    return count == 2 && left > 0 ? add(d, kept, left < 2 ? 1 : 2, face) : 0;
 }
 
 static corner_t corner_of(const double position[3]) {

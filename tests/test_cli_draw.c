@@ -86,13 +86,13 @@ static void perspective_ends_at_the_near_plane(void **state) {
           "0 0 0 0 0\n0 4 4 4 0\n0 4 4 4 0\n0 4 4 4 0\n0 0 0 0 0\n");
     drawn("lines", "screen 5 5\ncamera persp 2\norigin 2 2\nysign -1\npoly 4 -1,0,2 1,0,2 1,1,2 -1,1,2\n",
           "0 0 0 0 0\n0 4 4 4 0\n0 4 4 4 0\n0 0 0 0 0\n0 0 0 0 0\n");
-    /* A floor from Z = 4 through the near plane at 1 to -2: x = 2 + 2 X / Z, y = 2 + 2 / Z. The sides X = +-1 leave (1.5, 2.5) for
-     * (0, 4) and (2.5, 2.5) for (4, 4): corners (2, 3), (0, 4) and (3, 3), (4, 4). The side at Z = -2 is not drawn, nor is the cut.
+    /* A floor from Z = 4 through the near plane at 1 to -5: x = 2 + 2 X / Z, y = 2 + 2 / Z. The sides X = +-1 leave (1.5, 2.5) for
+     * (0, 4) and (2.5, 2.5) for (4, 4): corners (2, 3), (0, 4) and (3, 3), (4, 4). The side at Z = -5 is not drawn, nor is the cut.
      */
-    drawn("lines", "screen 5 5\ncamera persp 2\norigin 2 2\npoly 8 -1,1,-2 1,1,-2 1,1,4 -1,1,4\n",
+    drawn("lines", "screen 5 5\ncamera persp 2\norigin 2 2\npoly 8 -1,1,-5 1,1,-5 1,1,4 -1,1,4\n",
           "0 0 0 0 0\n0 0 0 0 0\n0 0 0 0 0\n0 0 8 8 0\n8 8 0 0 8\n");
     /* Filled: (2, 3) - (0, 4) is halfway in column 1 and takes the lower row there. */
-    drawn("triangles --policy outer", "screen 5 5\ncamera persp 2\norigin 2 2\npoly 8 -1,1,-2 1,1,-2 1,1,4 -1,1,4\n",
+    drawn("triangles --policy outer", "screen 5 5\ncamera persp 2\norigin 2 2\npoly 8 -1,1,-5 1,1,-5 1,1,4 -1,1,4\n",
           "0 0 0 0 0\n0 0 0 0 0\n0 0 0 0 0\n0 0 8 8 0\n8 8 8 8 8\n");
     drawn("lines", "screen 2 2\ncamera persp 2 3\npoly 4 -9,-9,2 9,-9,2 9,9,2 -9,9,2\n", "0 0\n0 0\n");
 }

@@ -13,7 +13,7 @@ static range_t steps_inside(int32_t start, int32_t step, int32_t low, int32_t en
     return range;
 }
 
-/* The first step along after which at least m > 0 aside have been made: m * major < 2^61. */
+/* The first step along after which at least m > 0 aside have been made; minor > 0, m * major < 2^61. */
 static int64_t first_with(const line_t *line, int64_t m) {
     return (m * line->major - line->major / 2 + line->minor - 1) / line->minor;
 }
@@ -36,11 +36,11 @@ bool line_start(line_t *line, const int32_t from[2], const int32_t to[2], const 
     }
     if (aside.low > line->minor || aside.high < 0) { return false; }
     if (along.high > line->major) { along.high = line->major; }
-    if (aside.low > 0) {
+    if (aside.low > 0 && line->minor > 0) {
         const int64_t first = first_with(line, aside.low);
         if (first > along.low) { along.low = first; }
     }
-    if (aside.high < line->minor) {
+    if (aside.high < line->minor && line->minor > 0) {
         const int64_t last = first_with(line, aside.high + 1) - 1;
         if (last < along.high) { along.high = last; }
     }
