@@ -27,7 +27,7 @@
  * one pixel of a steep side is at most half a pixel from there, whatever the policy.
  *
  * The document stores both tables: 8 bytes a row, 32 KB for its 4096 rows. Here each side gives up its run row by row, by quotient
- * and remainder, and can be entered at any row: no table, the same 148 bytes for any height, two divisions of 64 bits a side and
+ * and remainder, and can be entered at any row: no table, the same 148 bytes for any height, one division of 64 bits a side and
  * tile.
  */
 #ifndef TUILE_DRAW_EDGE_TABLE_H
