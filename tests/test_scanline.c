@@ -56,15 +56,15 @@ static const row_t bow_tie_table[] = {
     {0, 0, {{0}}},
 };
 
-static void check_entry(int y, unsigned rank, const active_edge_t *e, const active_plane_t *plane, const entry_t *expected) {
+static void check_entry(int y, int32_t row, unsigned rank, const active_edge_t *e, const active_plane_t *plane, const entry_t *expected) {
     const int64_t d = e->edge.d, back = d - 1 - e->edge.n; /* the crossing is back / d left of pixel x */
     const int64_t x = e->edge.x * d - back, dx = e->edge.q * d + e->edge.r;
-    const int64_t z = (int64_t)e->z * d - (int64_t)plane->dx * back;
+    const int64_t z = e->deep ? (int64_t)e->z * d - (int64_t)plane->dx * back : 0;
     const bool deep = expected->z_den != 0;
-    if (x * expected->x_den != expected->x * d || dx * expected->dx_den != expected->dx * d || e->rows != expected->rows ||
+    if (x * expected->x_den != expected->x * d || dx * expected->dx_den != expected->dx * d || e->row_end - row != expected->rows ||
         e->deep != deep || (deep && z * expected->z_den != expected->z * d * UNIT)) {
         fail_msg("y = %d, rank %u: (%lld/%lld, %lld/%lld, %d, %s %lld/%lld)", y, rank, (long long)x, (long long)d, (long long)dx,
-                 (long long)d, e->rows, e->deep ? "z" : "no z", (long long)z, (long long)d * UNIT);
+                 (long long)d, e->row_end - row, e->deep ? "z" : "no z", (long long)z, (long long)d * UNIT);
     }
 }
 
@@ -82,20 +82,20 @@ static void check_table(const int (*points)[2], unsigned count, int direction, c
     }
     const polygon_ring_t ring = {vertices, NULL, NULL, count};
     active_list_t list = {0, 0, 0};
-    assert_true(active_enter(pool, &list, &ring, &plane, INT32_MIN, 0));
+    assert_true(active_begin(pool, &list, &ring, &plane, 0));
     for (unsigned row = 0; row < row_count; row++) {
         uint32_t at = list.first;
         assert_int_equal(rows[row].y, top - (int)row);
         for (unsigned rank = 0; rank < rows[row].count; rank++) {
             if (at == 0) { fail_msg("y = %d: %u entries, not %u", rows[row].y, rank, rows[row].count); }
             const active_edge_t *e = active_at(pool, at);
-            check_entry(rows[row].y, rank + 1, e, &plane, &rows[row].entries[rank]);
+            check_entry(rows[row].y, (int32_t)row, rank + 1, e, &plane, &rows[row].entries[rank]);
             at = e->next;
         }
         assert_int_equal(at, 0);
         active_step(pool, &list, &plane, (int32_t)row + 1);
         if ((int32_t)row + 1 == list.row_next) {
-            assert_true(active_enter(pool, &list, &ring, &plane, (int32_t)row + 1, (int32_t)row + 1));
+            assert_true(active_change(pool, &list, &ring, &plane, (int32_t)row + 1));
         }
     }
 }
@@ -127,13 +127,13 @@ static void a_list_may_begin_at_any_row(void **state) {
         }
         const polygon_ring_t ring = {vertices, NULL, NULL, CHECK_COUNT(polygon)};
         active_list_t list = {0, 0, 0};
-        assert_true(active_enter(pool, &list, &ring, &plane, INT32_MIN, (int32_t)first));
+        assert_true(active_begin(pool, &list, &ring, &plane, (int32_t)first));
         assert_int_equal(list.row_end, 7);
         uint32_t at = list.first;
         for (unsigned rank = 0; rank < table[first].count; rank++) {
             assert_int_not_equal(at, 0);
             const active_edge_t *e = active_at(pool, at);
-            check_entry(table[first].y, rank + 1, e, &plane, &table[first].entries[rank]);
+            check_entry(table[first].y, (int32_t)first, rank + 1, e, &plane, &table[first].entries[rank]);
             at = e->next;
         }
         assert_int_equal(at, 0);

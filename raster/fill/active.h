@@ -1,12 +1,17 @@
 /* The active edge list of document 002 (S14), of one face: the sides that cross the row that is being drawn, from left to right.
  *
  * An entry is the document's (xc, Δx, Δyc, zc), in integers that lose nothing:
- *   xc, Δx  an edge_t. The crossing is x - (d - 1 - n) / d, where x is the first pixel whose centre is not left of it; Δx is q + r
- * / d. Δyc     the rows that are left to the lower end. At 0 the side has ended: the row is no longer its own, and the document
- * keeps it there once more unless another side goes on from its end. Whoever draws passes over it. zc      kept where a span may
- * start, that is on odd ranks: the plane's value at the centre of pixel x, by which all pixels of the span are stepped. A row
- * further down it grows by dy, and by dx for each pixel that x moved: the document's
- *           -(aΔx + b) / c in its two whole-pixel values. At the crossing itself it is  z - dx (d - 1 - n) / d.
+ *
+ *   xc, Δx   an edge_t. x is the first pixel whose centre is not left of the crossing, which is (d - 1 - n) / d before it;
+ *            Δx is q + r / d.
+ *
+ *   Δyc      row_end less the current row. At 0 the side has ended: the row is no longer its own, and the document keeps it
+ *            there once more unless another side goes on from its end. Whoever draws passes over it.
+ *
+ *   zc       kept on odd ranks, where a span may start: the plane's value at the centre of pixel x, from where the pixels of
+ *            the span are stepped. A row further down it grows by dy, and by dx for each pixel that x moved: the document's
+ *            -(aΔx + b) / c in its two whole-pixel values. At the crossing itself it is z - dx (d - 1 - n) / d.
+ *
  * B, the document's table of sides by the row where they begin, is the ring itself, walked on those rows where a side begins.
  *
  * Entries lie in a pool and are linked by their distance in bytes from the pool's start; 0 ends a list. A face of n corners has at
@@ -26,7 +31,7 @@ typedef struct active_pool {
 
 typedef struct active_edge {
     uint32_t next;
-    int16_t rows;         /* Δyc */
+    int16_t row_end;      /* Δyc rows below the current one */
     bool deep;            /* z is kept */
     int16_t end_x, end_y; /* the lower end, 1/16 pixel */
     edge_t edge;
@@ -41,7 +46,7 @@ typedef struct active_plane {
 
 typedef struct active_list {
     uint32_t first;
-    int16_t row_next; /* B: the next row where a side begins */
+    int16_t row_next; /* the next row where a side begins or ends, or has ended the row before */
     int16_t row_end;  /* no side has a row from here on */
 } active_list_t;
 
@@ -65,15 +70,38 @@ TUILE_INLINE void active_give(active_pool_t *pool, uint32_t *free_list, uint32_t
     *free_list = at;
 }
 
-/* Enters the sides that cross `row` and begin in rows from ... row: those of B[row] with from = row; all, into an empty list, with
- * from = INT32_MIN. Sides that ended on this row where one of these begins are dropped. False: the pool is full. */
-bool active_enter(active_pool_t *pool, active_list_t *list, const polygon_ring_t *ring, const active_plane_t *plane, int32_t from,
-                  int32_t row);
+/* Begins a list at a row. False: the pool is full. */
+bool active_begin(active_pool_t *pool, active_list_t *list, const polygon_ring_t *ring, const active_plane_t *plane, int32_t row);
 
-/* Moves the list down to `row`, one below the row it is on. On row_next, active_enter is to follow. */
-void active_step(active_pool_t *pool, active_list_t *list, const active_plane_t *plane, int32_t row);
+/* What the document does behind the step, on rows where a side begins or ends: sides with Δyc < 0 are dropped, those with Δyc = 0
+ * where another one begins too, B[row] is inserted. False: the pool is full. */
+bool active_change(active_pool_t *pool, active_list_t *list, const polygon_ring_t *ring, const active_plane_t *plane, int32_t row);
 
 /* Empties the list. */
 void active_drop(active_pool_t *pool, active_list_t *list);
+
+/* Sorts a list whose sides have come to cross one another; all others keep their order. */
+void active_sort(active_pool_t *pool, active_list_t *list, const active_plane_t *plane, int32_t row);
+
+/* The crossing is x - 1 + (n + 1) / d. */
+TUILE_INLINE bool active_left_of(const edge_t *a, const edge_t *b) {
+    return a->x < b->x || (a->x == b->x && (int64_t)(a->n + 1) * b->d < (int64_t)(b->n + 1) * a->d);
+}
+
+/* Moves the sides down to `row`, one below the row they are on. On row_next, active_change has to follow. */
+TUILE_INLINE void active_step(active_pool_t *pool, active_list_t *list, const active_plane_t *plane, int32_t row) {
+    const active_edge_t *last = NULL;
+    bool crossed = false;
+    for (uint32_t at = list->first; at;) {
+        active_edge_t *e = (active_edge_t *)active_at(pool, at);
+        const int32_t x = e->edge.x;
+        edge_step(&e->edge);
+        if (e->deep) { e->z += plane->dy + plane->dx * (uint64_t)(int64_t)(e->edge.x - x); }
+        crossed |= last && active_left_of(&e->edge, &last->edge);
+        last = e;
+        at = e->next;
+    }
+    if (TUILE_UNLIKELY(crossed)) { active_sort(pool, list, plane, row); }
+}
 
 #endif

@@ -70,13 +70,19 @@ static polygon_ring_t face_ring(const tuile_t *t, const record_t *record, uint8_
 }
 
 static bool in_columns(const tuile_t *t, const record_t *record) {
-    uint8_t three[3];
-    const polygon_ring_t ring = face_ring(t, record, three);
     int32_t least = INT32_MAX, most = INT32_MIN;
-    for (uint32_t i = 0; i < ring.count; i++) {
-        const int32_t x = polygon_ring_vertex(&ring, i)->x;
-        least = x < least ? x : least;
-        most = x > most ? x : most;
+    if (frame_record_is_triangle(record)) {
+        const vertex_t *v0 = &t->vertices[record->v0];
+        const int32_t x0 = v0->x, x1 = v0[record->d1].x, x2 = v0[record->d2].x;
+        least = x0 < x1 ? (x0 < x2 ? x0 : x2) : (x1 < x2 ? x1 : x2);
+        most = x0 > x1 ? (x0 > x2 ? x0 : x2) : (x1 > x2 ? x1 : x2);
+    } else {
+        const polygon_ring_t ring = frame_record_ring(t, record);
+        for (uint32_t i = 0; i < ring.count; i++) {
+            const int32_t x = polygon_ring_vertex(&ring, i)->x;
+            least = x < least ? x : least;
+            most = x > most ? x : most;
+        }
     }
     return edge_row(least) < t->tile.right && edge_row(most) > t->tile.left;
 }
@@ -120,7 +126,7 @@ static int face_start(tuile_t *t, sweep_t *sweep, uint32_t *link, uint32_t numbe
         face_end(sweep, at);
         return FRAME_OK;
     }
-    if (!active_enter(&sweep->pool, &face->edges, &ring, &face->plane, INT32_MIN, row)) { return FRAME_FULL; }
+    if (!active_begin(&sweep->pool, &face->edges, &ring, &face->plane, row)) { return FRAME_FULL; }
     face->value = t->span_kind == SPAN_GOURAUD && !face->polygon ? record->material : face_value(t, record);
     face->next = *link;
     *link = at;
@@ -133,7 +139,7 @@ TUILE_INLINE bool face_step(const tuile_t *t, sweep_t *sweep, face_t *face, int3
     if (TUILE_LIKELY(row != face->edges.row_next)) { return true; }
     uint8_t three[3];
     const polygon_ring_t ring = face_ring(t, frame_record(t, face->record), three);
-    return active_enter(&sweep->pool, &face->edges, &ring, &face->plane, row, row);
+    return active_change(&sweep->pool, &face->edges, &ring, &face->plane, row);
 }
 
 /* ---- spans ---- */
@@ -170,19 +176,19 @@ static TUILE_NOINLINE void span_clamped(tuile_t *t, const line_t *line, const fa
     }
 }
 
-/* The document's "traiter les segments intersectés": entries two by two, those that have ended passed over. */
-TUILE_INLINE void face_draw(tuile_t *t, sweep_t *sweep, const line_t *line, const face_t *face, bool last) {
-    const active_edge_t *open = NULL, *e;
-    for (uint32_t at = face->edges.first; at; at = e->next) {
-        e = active_at(&sweep->pool, at);
-        if (e->rows == 0) { continue; }
-        if (open == NULL) {
-            open = e;
-            continue;
-        }
-        int32_t from = open->edge.x, to = e->edge.x;
-        uint64_t z = open->z;
-        open = NULL;
+/* The document's "traiter les segments intersectés": entries two by two, those that have ended passed over. On every row an even
+ * number is left. */
+TUILE_INLINE void face_draw(tuile_t *t, sweep_t *sweep, const line_t *line, const face_t *face, int32_t row, bool last) {
+    for (uint32_t at = face->edges.first; at;) {
+        const active_edge_t *a = active_at(&sweep->pool, at), *b;
+        at = a->next;
+        if (a->row_end <= row) { continue; }
+        do {
+            b = active_at(&sweep->pool, at);
+            at = b->next;
+        } while (b->row_end <= row);
+        int32_t from = a->edge.x, to = b->edge.x;
+        uint64_t z = a->z;
         if (from < line->left) {
             z += face->plane.dx * (uint64_t)(int64_t)(line->left - from);
             from = line->left;
@@ -220,7 +226,7 @@ static int line_draw(tuile_t *t, sweep_t *sweep, const line_t *line, int32_t row
         if (*link == 0) { break; }
         const uint32_t at = *link;
         face_t *face = face_at(sweep, at);
-        last ? face_draw(t, sweep, line, face, true) : face_draw(t, sweep, line, face, false);
+        last ? face_draw(t, sweep, line, face, row, true) : face_draw(t, sweep, line, face, row, false);
         active++;
         if (row + 1 >= face->edges.row_end) {
             *link = face->next;
