@@ -2,22 +2,22 @@
  * takes that face; any other is divided, down to single pixels, where the nearest face at the centre is seen. There is no depth
  * buffer.
  *
- * Faces of a window. One array holds the numbers of the tile's faces. Those of a window are two neighbouring parts of it,
- *     order:  ... | first .. filling -> surrounding | filling .. end -> intersecting | ...
- * and what lies outside is of no concern to it: disjoint, or hidden all over it. For a part of the window the array is rearranged
- * within these two parts only:
- *     before:   | surrounding                | intersecting                        |
- *     after:    | hidden now | surrounding still | surrounding now | intersecting still | disjoint or hidden now |
- * so what a window's three numbers enclose are the same faces for each of its parts, in whatever order, and nothing has to be
- * undone on the way up.
+ * Faces of a window. One array holds the numbers of the tile's faces; two numbers tell those of a window,
+ *     order:  | surrounding ... filling | intersecting ... end | of no concern to it: disjoint, or hidden all over it |
+ * and for a part of the window the middle is rearranged, and nothing else:
+ *     before: | surrounding              | intersecting                                                      |
+ *     after:  | surrounding              | surrounding now | intersecting still | disjoint or hidden now     |
+ * So whatever happens to the parts of a window, its two numbers enclose the same faces, in whatever order, and nothing has to be
+ * undone on the way up. (A surrounding face that another one hides stays where it is: to move it would mix what an outer window
+ * keeps apart.)
  *
- * Windows that wait lie on a stack, each with the three numbers of the window that it is a part of. Of the parts the smallest is
+ * Windows that wait lie on a stack, each with the two numbers of the window that it is a part of. Of the parts the smallest is
  * looked at first and the largest last. Then with w windows waiting below one of area A,  w + 1.5 log2 A  never grows: of four
  * parts the smallest has an area of at most A / 4 and three wait below it (3 = 1.5 log2 4), the next A / 3 and two (2 < 1.5 log2
  * 3), then A / 2 and one, then none; of two parts A / 2 and one. Hence at most 1.5 log2 2^20 + 1 = 31 windows, wherever they are
  * cut.
  *
- * Memory: the free room holds sizeof(warnock_face_t) + 2 = 90 bytes for each face whose box meets the tile; the stack is 31 * 16
+ * Memory: the free room holds sizeof(warnock_face_t) + 2 = 90 bytes for each face whose box meets the tile; the stack is 31 * 14
  * bytes of the processor's. Nothing else, whatever the size of a tile.
  */
 #include "../tune.h"
@@ -31,8 +31,8 @@ _Static_assert(TUILE_WINDOW_MAX_PX <= 1024, "STACK_WINDOWS");
 
 typedef struct waiting {
     window_t window;
-    uint16_t first, filling, end; /* of the window that it is a part of */
-    uint16_t depth;               /* divisions that led here */
+    uint16_t filling, end; /* of the window that it is a part of */
+    uint16_t depth;        /* divisions that led here */
 } waiting_t;
 
 typedef struct subdivision {
@@ -72,12 +72,12 @@ static void pixel_decided(const subdivision_t *s, int32_t x, int32_t y) {
     decided(s, &(window_t){(int16_t)x, (int16_t)y, (int16_t)(x + 1), (int16_t)(y + 1)}, TUILE_WHY_PIXEL);
 }
 
-/* A window of one pixel: of the faces in order[first ... end - 1], of which those below `filling` cover it, the nearest. */
+/* A window of one pixel: the nearest of the faces that cover it. */
 static void decide_pixel(const subdivision_t *s, const waiting_t *p) {
     const int32_t x = p->window.left, y = p->window.top;
     const uint32_t turn = tie_turn(s);
     uint32_t nearest = 0;
-    for (uint32_t k = p->first; k < p->end; k++) {
+    for (uint32_t k = 0; k < p->end; k++) {
         const uint32_t number = s->order[k];
         if (k >= p->filling && warnock_face_relation(s->t, &s->faces[number], &p->window, false) != WINDOW_SURROUNDING) {
             continue;
@@ -87,52 +87,6 @@ static void decide_pixel(const subdivision_t *s, const waiting_t *p) {
     }
     if (nearest) { warnock_face_pixel(s->t, &s->faces[(nearest ^ turn) & 0xffffu], x, y); }
     pixel_decided(s, x, y);
-}
-
-#define MASK_FACES 32
-
-/* A window of up to 32 pixels that up to 32 faces meet: each face tells its pixels as the bits of a word. A pixel that one face
- * covers is that face's; only for those that several cover are depths compared. */
-static void decide_pixels(const subdivision_t *s, const waiting_t *p) {
-    const window_t *w = &p->window;
-    const uint32_t turn = tie_turn(s), count = (uint32_t)(p->end - p->first);
-    const uint16_t *order = s->order + p->first;
-    uint32_t masks[MASK_FACES], covered = 0, again = 0;
-    for (uint32_t k = 0; k < count; k++) {
-        const warnock_face_t *face = &s->faces[order[k]];
-        const uint32_t mask = k < (uint32_t)(p->filling - p->first) ? window_mask_full(w) : warnock_face_mask(s->t, face, w);
-        again |= covered & mask;
-        covered |= mask;
-        masks[k] = mask;
-    }
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t alone = masks[k] & ~again;
-        if (alone) { warnock_face_bits(s->t, &s->faces[order[k]], w, alone); }
-    }
-    const int32_t width = w->right - w->left;
-    int32_t x = w->left, y = w->top;
-    for (uint32_t bits = again; bits; bits >>= 1) {
-        if (bits & 1) {
-            const uint32_t bit = 1u << ((y - w->top) * width + x - w->left);
-            uint32_t nearest = 0;
-            for (uint32_t k = 0; k < count; k++) {
-                if (!(masks[k] & bit)) { continue; }
-                const uint32_t key = nearness(s, order[k], x, y, turn);
-                nearest = key > nearest ? key : nearest;
-            }
-            warnock_face_pixel(s->t, &s->faces[(nearest ^ turn) & 0xffffu], x, y);
-        }
-        if (++x == w->right) { x = w->left, y++; }
-    }
-    s->t->stats.windows += (uint32_t)window_area(w);
-    if (TUILE_UNLIKELY(s->t->config.trace != NULL)) {
-        for (y = w->top; y < w->bottom; y++) {
-            for (x = w->left; x < w->right; x++) {
-                decided(s, &(window_t){(int16_t)x, (int16_t)y, (int16_t)(x + 1), (int16_t)(y + 1)}, TUILE_WHY_PIXEL);
-            }
-        }
-    }
-    s->t->stats.windows_pixels += (uint32_t)window_area(w);
 }
 
 /* ---- windows ---- */
@@ -150,12 +104,13 @@ TUILE_INLINE bool hides(const subdivision_t *s, uint32_t a, uint32_t b, const wi
 typedef struct front {
     uint32_t face; /* s->count: none */
     uint32_t least;
+    bool alone; /* it hides all others that surround the window, or there is none */
 } front_t;
 
 TUILE_INLINE void front_take(const subdivision_t *s, front_t *front, uint32_t number, const window_t *w) {
     const uint32_t least = warnock_face_least(&s->faces[number], w);
     if (front->face == s->count || least > front->least || (least == front->least && wins_tie(s, number, front->face))) {
-        *front = (front_t){number, least};
+        *front = (front_t){number, least, true};
     }
 }
 
@@ -164,9 +119,9 @@ static front_t sort_out(const subdivision_t *s, waiting_t *p) {
     const window_t w = p->window;
     const bool brief = s->variant & TUILE_WARNOCK_PIXELS;
     uint16_t *order = s->order;
-    uint32_t filling = p->filling, end = p->filling, first = p->first;
-    front_t front = {s->count, 0};
-    for (uint32_t k = p->first; k < p->filling; k++) {
+    uint32_t filling = p->filling, end = p->filling;
+    front_t front = {s->count, 0, true};
+    for (uint32_t k = 0; k < filling; k++) {
         front_take(s, &front, order[k], &w);
     }
     for (uint32_t k = p->filling; k < p->end; k++) {
@@ -183,23 +138,23 @@ static front_t sort_out(const subdivision_t *s, waiting_t *p) {
         }
         end++;
     }
-    if (front.face != s->count && end - first > 1) { /* what the front hides goes to either side */
-        for (uint32_t k = first; k < filling; k++) {
-            if (order[k] == front.face || !hides(s, front.face, order[k], &w)) { continue; }
-            if (k < p->filling) {
-                swap(&order[first++], &order[k]);
-            } else {
-                /* It joined from the right, and leaves there: over the last of those that surround, then the last of all. */
-                swap(&order[--filling], &order[k]);
+    if (front.face != s->count && end > 1) { /* what the front hides */
+        for (uint32_t k = 0; k < p->filling; k++) {
+            front.alone &= order[k] == front.face || hides(s, front.face, order[k], &w);
+        }
+        for (uint32_t k = p->filling; k < filling; k++) {
+            if (order[k] == front.face) { continue; }
+            if (hides(s, front.face, order[k], &w)) { /* over the last that surrounds, then over the last of all */
+                swap(&order[--filling], &order[k--]);
                 swap(&order[--end], &order[filling]);
-                k--;
+            } else {
+                front.alone = false;
             }
         }
         for (uint32_t k = filling; k < end; k++) {
             if (hides(s, front.face, order[k], &w)) { swap(&order[--end], &order[k--]); }
         }
     }
-    p->first = (uint16_t)first;
     p->filling = (uint16_t)filling;
     p->end = (uint16_t)end;
     return front;
@@ -207,23 +162,75 @@ static front_t sort_out(const subdivision_t *s, waiting_t *p) {
 
 /* Colours the window if it can be done at once. */
 static bool settle(const subdivision_t *s, const waiting_t *p, front_t front) {
-    const unsigned surrounding = (unsigned)(p->filling - p->first), intersecting = (unsigned)(p->end - p->filling);
-    if (surrounding > 1 || intersecting > 1) { return false; }
+    const unsigned intersecting = (unsigned)(p->end - p->filling);
+    if (!front.alone || intersecting > 1) { return false; }
     if (intersecting == 1) {
         const uint32_t number = s->order[p->filling];
-        if (!(s->variant & TUILE_WARNOCK_SINGLE) || (surrounding == 1 && !hides(s, number, front.face, &p->window))) {
-            return false;
-        }
-        if (surrounding) { warnock_face_fill(s->t, &s->faces[front.face], &p->window); }
+        if (!(s->variant & TUILE_WARNOCK_SINGLE) || (p->filling > 0 && !hides(s, number, front.face, &p->window))) { return false; }
+        if (p->filling > 0) { warnock_face_fill(s->t, &s->faces[front.face], &p->window); }
         warnock_face_paint(s->t, &s->faces[number], &p->window);
         decided(s, &p->window, TUILE_WHY_SINGLE);
-    } else if (surrounding) {
+    } else if (p->filling > 0) {
         warnock_face_fill(s->t, &s->faces[front.face], &p->window);
         decided(s, &p->window, TUILE_WHY_SURROUNDED);
     } else {
         decided(s, &p->window, TUILE_WHY_EMPTY);
     }
     return true;
+}
+
+#define MASK_FACES 32
+
+/* A window of up to 32 pixels that up to 32 faces meet: each face tells its pixels as the bits of a word. A pixel that one face
+ * covers is that face's; only for those that several cover are depths compared. */
+static void decide_pixels(const subdivision_t *s, const waiting_t *p, front_t front) {
+    const window_t *w = &p->window;
+    const uint32_t turn = tie_turn(s);
+    uint32_t masks[MASK_FACES], covered = 0, again = 0, count = 0;
+    uint16_t numbers[MASK_FACES];
+    for (uint32_t k = 0; k < p->end; k++) {
+        const uint32_t number = s->order[k];
+        uint32_t mask;
+        if (k >= p->filling) {
+            mask = warnock_face_mask(s->t, &s->faces[number], w);
+        } else if (number == front.face || !front.alone) {
+            mask = window_mask_full(w);
+        } else {
+            continue; /* the front hides it */
+        }
+        again |= covered & mask;
+        covered |= mask;
+        numbers[count] = (uint16_t)number;
+        masks[count++] = mask;
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t alone = masks[k] & ~again;
+        if (alone) { warnock_face_bits(s->t, &s->faces[numbers[k]], w, alone); }
+    }
+    const int32_t width = w->right - w->left;
+    int32_t x = w->left, y = w->top;
+    for (uint32_t bits = again; bits; bits >>= 1) {
+        if (bits & 1) {
+            const uint32_t bit = 1u << ((y - w->top) * width + x - w->left);
+            uint32_t nearest = 0;
+            for (uint32_t k = 0; k < count; k++) {
+                if (!(masks[k] & bit)) { continue; }
+                const uint32_t key = nearness(s, numbers[k], x, y, turn);
+                nearest = key > nearest ? key : nearest;
+            }
+            warnock_face_pixel(s->t, &s->faces[(nearest ^ turn) & 0xffffu], x, y);
+        }
+        if (++x == w->right) { x = w->left, y++; }
+    }
+    s->t->stats.windows += (uint32_t)window_area(w);
+    if (TUILE_UNLIKELY(s->t->config.trace != NULL)) {
+        for (y = w->top; y < w->bottom; y++) {
+            for (x = w->left; x < w->right; x++) {
+                decided(s, &(window_t){(int16_t)x, (int16_t)y, (int16_t)(x + 1), (int16_t)(y + 1)}, TUILE_WHY_PIXEL);
+            }
+        }
+    }
+    s->t->stats.windows_pixels += (uint32_t)window_area(w);
 }
 
 /* ---- division ---- */
@@ -291,7 +298,7 @@ static void divide(subdivision_t *s, const waiting_t *p) {
 
 static void subdivide(subdivision_t *s, const window_t *tile) {
     tuile_stats_t *stats = &s->t->stats;
-    s->stack[0] = (waiting_t){*tile, 0, 0, (uint16_t)s->count, 0};
+    s->stack[0] = (waiting_t){*tile, 0, (uint16_t)s->count, 0};
     s->waiting = 1;
     while (s->waiting > 0) {
         waiting_t p = s->stack[--s->waiting];
@@ -305,8 +312,8 @@ static void subdivide(subdivision_t *s, const window_t *tile) {
         }
         const front_t front = sort_out(s, &p);
         if (settle(s, &p, front)) { continue; }
-        if (s->variant & TUILE_WARNOCK_PIXELS && width * height <= WINDOW_MASK_PX && p.end - p.first <= MASK_FACES) {
-            decide_pixels(s, &p);
+        if (s->variant & TUILE_WARNOCK_PIXELS && width * height <= WINDOW_MASK_PX && p.end <= MASK_FACES) {
+            decide_pixels(s, &p, front);
             continue;
         }
         divide(s, &p);
