@@ -56,7 +56,8 @@ static const row_t bow_tie_table[] = {
     {0, 0, {{0}}},
 };
 
-static void check_entry(int y, int32_t row, unsigned rank, const active_edge_t *e, const active_plane_t *plane, const entry_t *expected) {
+static void check_entry(int y, int32_t row, unsigned rank, const active_edge_t *e, const active_plane_t *plane,
+                        const entry_t *expected) {
     const int64_t d = e->edge.d, back = d - 1 - e->edge.n; /* the crossing is back / d left of pixel x */
     const int64_t x = e->edge.x * d - back, dx = e->edge.q * d + e->edge.r;
     const int64_t z = e->deep ? (int64_t)e->z * d - (int64_t)plane->dx * back : 0;
@@ -94,9 +95,7 @@ static void check_table(const int (*points)[2], unsigned count, int direction, c
         }
         assert_int_equal(at, 0);
         active_step(pool, &list, &plane, (int32_t)row + 1);
-        if ((int32_t)row + 1 == list.row_next) {
-            assert_true(active_change(pool, &list, &ring, &plane, (int32_t)row + 1));
-        }
+        if ((int32_t)row + 1 == list.row_next) { assert_true(active_change(pool, &list, &ring, &plane, (int32_t)row + 1)); }
     }
 }
 

@@ -49,8 +49,12 @@ static void check_model(stage_t *stage, const char *name, unsigned step) {
     for (unsigned format = 0; format < 3; format++) {
         for (unsigned shade = 0; shade < 2; shade++) {
             for (unsigned tie = 0; tie < 2; tie++) {
-                tuile_config_t config = {.width = width, .height = height, .format = (uint8_t)format, .shade = (uint8_t)shade,
-                                         .tie = (uint8_t)tie, .corners = 16};
+                tuile_config_t config = {.width = width,
+                                         .height = height,
+                                         .format = (uint8_t)format,
+                                         .shade = (uint8_t)shade,
+                                         .tie = (uint8_t)tie,
+                                         .corners = 16};
                 uint8_t *expected = frame_draw(&stage->view.scene, &config, 1 << 20, NULL);
                 config.method = TUILE_WARNOCK;
                 for (unsigned variant = 0; variant < ALL_VARIANTS; variant += step) {
@@ -60,8 +64,8 @@ static void check_model(stage_t *stage, const char *name, unsigned step) {
                     config.tile_height = tile[1];
                     uint8_t *picture = frame_draw(&stage->view.scene, &config, 1 << 20, NULL);
                     if (memcmp(picture, expected, frame_bytes(&config)) != 0) {
-                        fail_msg("%s: format %u, shade %u, tie %u, tile %ux%u, variant %u", name, format, shade, tie, tile[0], tile[1],
-                                 variant);
+                        fail_msg("%s: format %u, shade %u, tie %u, tile %ux%u, variant %u", name, format, shade, tie, tile[0],
+                                 tile[1], variant);
                     }
                     free(picture);
                 }
@@ -172,7 +176,12 @@ static void the_memory_of_a_frame_is_the_one_stated(void **state) {
     (void)state;
     model_cube(&mesh);
     stage_open(&stage, &mesh, 64, 64);
-    tuile_config_t config = {.width = 64, .height = 64, .tile_height = 64, .buffers = 1, .method = TUILE_WARNOCK, .corners = 4,
+    tuile_config_t config = {.width = 64,
+                             .height = 64,
+                             .tile_height = 64,
+                             .buffers = 1,
+                             .method = TUILE_WARNOCK,
+                             .corners = 4,
                              .warnock = TUILE_WARNOCK_QUARTERS};
     free(frame_draw(&stage.view.scene, &config, 1 << 16, &stats));
     const size_t faces = stats.faces_binned, fixed = TUILE_STATE_BYTES + 64 * 64 * 2 + 8;
@@ -270,8 +279,8 @@ static const counted_t scenes[] = {
     {"screen 8 8\ncamera ortho\nsample 1/2 1/2\npoly 1 0,0,5 8,0,5 8,8,5 0,8,5\n", TUILE_WARNOCK_QUARTERS, 1, 0, 0, 0, 0, 1, 0},
     /* 8 x 2: only the longer side is halved while it is twice the other. Pixel (0, 0): halves of 4 x 2, of 2 x 2, quarters. The
      * picture's order of parts: the smallest first, of equals the left upper one. */
-    {"screen 8 2\ncamera ortho\nsample 1/2 1/2\npoly 1 0,0,5 1,0,5 1,1,5 0,1,5\n", TUILE_WARNOCK_QUARTERS, 1 + 2 + 2 + 4, 3, 6, 2, 0, 0,
-     4},
+    {"screen 8 2\ncamera ortho\nsample 1/2 1/2\npoly 1 0,0,5 1,0,5 1,1,5 0,1,5\n", TUILE_WARNOCK_QUARTERS, 1 + 2 + 2 + 4, 3, 6, 2,
+     0, 0, 4},
     /* 3 x 3 is cut behind column 1 and row 1: pixel, two windows of two, one of four. Its middle pixel is the face's. */
     {"screen 3 3\ncamera ortho\nsample 1/2 1/2\npoly 1 1,1,5 2,1,5 2,2,5 1,2,5\n", TUILE_WARNOCK_QUARTERS, 1 + 4 + 4, 2, 4, 2, 0, 0,
      1 + 4},

@@ -93,8 +93,8 @@ static void boxes_against_windows(void **state) {
         window_t box;
         bool held, missed;
     } boxes[] = {
-        {{2, 2, 6, 6}, true, false},  {{3, 3, 4, 4}, true, false},  {{1, 2, 6, 6}, false, false},  {{2, 1, 6, 6}, false, false},
-        {{2, 2, 7, 6}, false, false}, {{2, 2, 6, 7}, false, false}, {{-5, 0, 2, 9}, false, true},  {{6, 0, 9, 9}, false, true},
+        {{2, 2, 6, 6}, true, false},  {{3, 3, 4, 4}, true, false},  {{1, 2, 6, 6}, false, false},   {{2, 1, 6, 6}, false, false},
+        {{2, 2, 7, 6}, false, false}, {{2, 2, 6, 7}, false, false}, {{-5, 0, 2, 9}, false, true},   {{6, 0, 9, 9}, false, true},
         {{0, -5, 9, 2}, false, true}, {{0, 6, 9, 9}, false, true},  {{-5, -5, 3, 3}, false, false}, {{5, 5, 9, 9}, false, false},
     };
     (void)state;

@@ -14,9 +14,7 @@ static void rank(active_pool_t *pool, const active_list_t *list, const active_pl
         odd_of_all = !odd_of_all;
         odd ^= !ended;
         const bool deep = ended ? odd_of_all : odd;
-        if (deep && !e->deep) {
-            e->z = plane->z + plane->dx * (uint64_t)(int64_t)e->edge.x + plane->dy * (uint64_t)(int64_t)row;
-        }
+        if (deep && !e->deep) { e->z = plane->z + plane->dx * (uint64_t)(int64_t)e->edge.x + plane->dy * (uint64_t)(int64_t)row; }
         e->deep = deep;
         at = e->next;
     }
