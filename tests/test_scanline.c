@@ -302,7 +302,7 @@ static void models_are_those_of_the_z_buffer(void **state) {
 static void check_file(const char *path, bool rotate) {
     stage_t stage = {.compiled = {.bytes = NULL}};
     sim_error_t error = {""};
-    if (mesh_load(path, 0, &stage.compiled.bytes, &stage.compiled.size_bytes, &stage.compiled.report, &error) != 0) {
+    if (mesh_load(path, 0, NULL, &stage.compiled.bytes, &stage.compiled.size_bytes, &stage.compiled.report, &error) != 0) {
         fail_msg("%s", error.text);
     }
     assert_int_equal(tuile_model_open(&stage.compiled.model, stage.compiled.bytes, stage.compiled.size_bytes), TUILE_OK);
