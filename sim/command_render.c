@@ -262,7 +262,7 @@ static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t 
 static int set_up(render_t *r) {
     size_t size_bytes;
     mesh_report_t report;
-    if (mesh_load(r->model_path, (size_t)r->max_faces, &r->bytes, &size_bytes, &report, &r->error) != 0) {
+    if (mesh_load(r->model_path, (size_t)r->max_faces, NULL, &r->bytes, &size_bytes, &report, &r->error) != 0) {
         return command_fail("%s", r->error.text);
     }
     int result = tuile_model_open(&r->model, r->bytes, size_bytes);

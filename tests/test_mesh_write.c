@@ -20,26 +20,26 @@ static void test_write_and_load(void **state) {
     mesh_report_t report;
     assert_int_equal(mesh_write(c.bytes, c.size_bytes, folder_path("cube.tuile"), NULL, &error), 0);
     assert_int_equal(folder_files(false), 2);
-    assert_int_equal(mesh_load(folder_path("cube.tuile"), 0, &bytes, &size_bytes, &report, &error), 0);
+    assert_int_equal(mesh_load(folder_path("cube.tuile"), 0, NULL, &bytes, &size_bytes, &report, &error), 0);
     assert_int_equal(size_bytes, c.size_bytes);
     assert_memory_equal(bytes, c.bytes, size_bytes);
     assert_int_equal(report.faces, 6);
     assert_int_equal(report.polygons, 6);
     free(bytes);
-    assert_int_equal(mesh_load(folder_path("cube.obj"), 0, &bytes, &size_bytes, NULL, &error), 0);
+    assert_int_equal(mesh_load(folder_path("cube.obj"), 0, NULL, &bytes, &size_bytes, NULL, &error), 0);
     assert_memory_equal(bytes, c.bytes, size_bytes);
     free(bytes);
-    assert_int_equal(mesh_load(folder_path("cube.obj"), 6, &bytes, &size_bytes, &report, &error), 0); /* few enough as quads */
+    assert_int_equal(mesh_load(folder_path("cube.obj"), 6, NULL, &bytes, &size_bytes, &report, &error), 0); /* few enough as quads */
     assert_int_equal(report.polygons, 6);
     free(bytes);
-    assert_int_equal(mesh_load(folder_path("cube.tuile"), 5, &bytes, &size_bytes, &report, &error), -1);
+    assert_int_equal(mesh_load(folder_path("cube.tuile"), 5, NULL, &bytes, &size_bytes, &report, &error), -1);
     assert_non_null(strstr(error.text, "more than the 5"));
     for (size_t at = 0; at < c.size_bytes; at++) { /* any byte changed, any length: refused */
         uint8_t kept = c.bytes[at];
         c.bytes[at] = (uint8_t)(kept ^ 16u);
-        assert_int_equal(mesh_load(folder_put_bytes("bad.tuile", c.bytes, c.size_bytes), 0, &bytes, &size_bytes, NULL, &error), -1);
+        assert_int_equal(mesh_load(folder_put_bytes("bad.tuile", c.bytes, c.size_bytes), 0, NULL, &bytes, &size_bytes, NULL, &error), -1);
         c.bytes[at] = kept;
-        assert_int_equal(mesh_load(folder_put_bytes("bad.tuile", c.bytes, at), 0, &bytes, &size_bytes, NULL, &error), -1);
+        assert_int_equal(mesh_load(folder_put_bytes("bad.tuile", c.bytes, at), 0, NULL, &bytes, &size_bytes, NULL, &error), -1);
     }
     assert_non_null(strstr(error.text, "cut short"));
     decoder_drop(&c);

@@ -16,7 +16,7 @@ static size_t count_polygons(const tuile_model_t *model) {
     return polygons;
 }
 
-static int load_compiled(const char *path, size_t max_faces, const uint8_t *bytes, size_t size_bytes, mesh_report_t *report,
+static int load_compiled(const char *path, size_t max_faces, bool tree, const uint8_t *bytes, size_t size_bytes, mesh_report_t *report,
                          sim_error_t *error) {
     tuile_model_t model;
     if (tuile_model_open(&model, bytes, size_bytes)) {
@@ -32,6 +32,9 @@ static int load_compiled(const char *path, size_t max_faces, const uint8_t *byte
                         "%s: is compiled already and has %u faces, more than the %zu asked for; compile it anew from its source",
                         path, model.face_count, max_faces);
     }
+    if (tree && !model_u32(bytes + MODEL_AT_TREE)) {
+        return sim_fail(error, "%s: is compiled already, without a display tree; compile it from the model that it was made of", path);
+    }
     if (report) {
         *report = (mesh_report_t){.vertices = model.vertex_count,
                                   .faces = model.face_count,
@@ -42,20 +45,24 @@ static int load_compiled(const char *path, size_t max_faces, const uint8_t *byte
     return 0;
 }
 
-/* Polygons are kept while they are few enough; what is counted are the faces that come out, as bent ones are cut. */
-static int load_source(const char *path, size_t max_faces, uint8_t **bytes, size_t *size_bytes, mesh_report_t *report,
-                       sim_error_t *error) {
+/* Polygons are kept while they are few enough; what is counted are the faces that come out, as bent ones are cut, but before a tree
+ * cuts them. */
+static int load_source(const char *path, size_t max_faces, const mesh_options_t *options, uint8_t **bytes, size_t *size_bytes,
+                       mesh_report_t *report, sim_error_t *error) {
     mesh_t mesh;
     mesh_report_t counts = {0};
     if (mesh_import(&mesh, path, error)) { return -1; }
     int status = 0;
     bool few = !max_faces || mesh.face_count <= max_faces;
-    if (few) { status = mesh_compile(&mesh, NULL, bytes, size_bytes, &counts, error); }
-    if (!status && max_faces && (!few || counts.faces > max_faces)) {
+    mesh_options_t plain = *options;
+    plain.tree = options->tree && !max_faces;
+    if (few) { status = mesh_compile(&mesh, &plain, bytes, size_bytes, &counts, error); }
+    const bool many = !few || (max_faces && counts.faces > max_faces);
+    if (!status && (many || plain.tree != options->tree)) {
         free(*bytes);
         *bytes = NULL;
-        status = mesh_simplify(&mesh, max_faces, error);
-        if (!status) { status = mesh_compile(&mesh, NULL, bytes, size_bytes, &counts, error); }
+        if (many) { status = mesh_simplify(&mesh, max_faces, error); }
+        if (!status) { status = mesh_compile(&mesh, options, bytes, size_bytes, &counts, error); }
     }
     if (status && error) { /* the later stages do not know the file */
         sim_error_t inner = *error;
@@ -66,7 +73,10 @@ static int load_source(const char *path, size_t max_faces, uint8_t **bytes, size
     return status;
 }
 
-int mesh_load(const char *path, size_t max_faces, uint8_t **bytes, size_t *size_bytes, mesh_report_t *report, sim_error_t *error) {
+int mesh_load(const char *path, size_t max_faces, const mesh_options_t *options, uint8_t **bytes, size_t *size_bytes,
+              mesh_report_t *report, sim_error_t *error) {
+    static const mesh_options_t defaults = {0};
+    if (!options) { options = &defaults; }
     char *text;
     size_t length;
     *bytes = NULL;
@@ -75,9 +85,9 @@ int mesh_load(const char *path, size_t max_faces, uint8_t **bytes, size_t *size_
     static const uint8_t magic[4] = {MODEL_MAGIC & 0xff, MODEL_MAGIC >> 8 & 0xff, MODEL_MAGIC >> 16 & 0xff, MODEL_MAGIC >> 24};
     if (length < sizeof magic || memcmp(text, magic, sizeof magic)) {
         free(text);
-        return load_source(path, max_faces, bytes, size_bytes, report, error);
+        return load_source(path, max_faces, options, bytes, size_bytes, report, error);
     }
-    if (load_compiled(path, max_faces, (uint8_t *)text, length, report, error)) {
+    if (load_compiled(path, max_faces, options->tree, (uint8_t *)text, length, report, error)) {
         free(text);
         return -1;
     }

@@ -64,7 +64,7 @@ int main(int count, char **arguments) {
     mesh_report_t report;
     tuile_model_t model;
     tuile_t *renderer;
-    if (mesh_load(arguments[1], 0, &bytes, &size_bytes, &report, &error) != 0 || tuile_model_open(&model, bytes, size_bytes) != 0) {
+    if (mesh_load(arguments[1], 0, NULL, &bytes, &size_bytes, &report, &error) != 0 || tuile_model_open(&model, bytes, size_bytes) != 0) {
         (void)fprintf(stderr, "bench: %s\n", error.text);
         return 1;
     }
