@@ -26,9 +26,9 @@ static void mesh_report_print(const mesh_report_t *report) {
 }
 
 static void tree_report_print(const mesh_tree_report_t *tree) {
-    (void)printf("tree: faces %zu -> %zu, splits %zu, type-1 %zu, type-2 %zu, complexity %zu, depth %zu, bytes %zu\n", tree->faces_in,
-                 tree->faces_out, tree->splits, tree->convex_nodes, tree->plane_nodes, tree->plane_nodes, tree->depth,
-                 tree->size_bytes);
+    (void)printf("tree: faces %zu -> %zu, splits %zu, type-1 %zu, type-2 %zu, complexity %zu, depth %zu, bytes %zu\n",
+                 tree->faces_in, tree->faces_out, tree->splits, tree->convex_nodes, tree->plane_nodes, tree->plane_nodes,
+                 tree->depth, tree->size_bytes);
     (void)printf("      not flat on the grid %zu, corners inserted along cuts %zu, pieces without area dropped %zu\n",
                  tree->non_planar, tree->seam_corners, tree->dropped);
 }
@@ -77,7 +77,9 @@ int command_mesh(int count, char **arguments) {
         (void)fputs(usage, stderr);
         return EXIT_USAGE;
     }
-    if (mesh_load(in, (size_t)max_faces, &compile, &bytes, &size_bytes, &report, &error) != 0) { return command_fail("%s", error.text); }
+    if (mesh_load(in, (size_t)max_faces, &compile, &bytes, &size_bytes, &report, &error) != 0) {
+        return command_fail("%s", error.text);
+    }
     const int failed = mesh_write(bytes, size_bytes, out, name, &error);
     free(bytes);
     if (failed) { return command_fail("%s", error.text); }

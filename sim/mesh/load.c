@@ -16,8 +16,8 @@ static size_t count_polygons(const tuile_model_t *model) {
     return polygons;
 }
 
-static int load_compiled(const char *path, size_t max_faces, bool tree, const uint8_t *bytes, size_t size_bytes, mesh_report_t *report,
-                         sim_error_t *error) {
+static int load_compiled(const char *path, size_t max_faces, bool tree, const uint8_t *bytes, size_t size_bytes,
+                         mesh_report_t *report, sim_error_t *error) {
     tuile_model_t model;
     if (tuile_model_open(&model, bytes, size_bytes)) {
         uint32_t promised = size_bytes >= 8 ? model_u32(bytes + MODEL_AT_SIZE) : 0;
@@ -33,7 +33,8 @@ static int load_compiled(const char *path, size_t max_faces, bool tree, const ui
                         path, model.face_count, max_faces);
     }
     if (tree && !model_u32(bytes + MODEL_AT_TREE)) {
-        return sim_fail(error, "%s: is compiled already, without a display tree; compile it from the model that it was made of", path);
+        return sim_fail(error, "%s: is compiled already, without a display tree; compile it from the model that it was made of",
+                        path);
     }
     if (report) {
         *report = (mesh_report_t){.vertices = model.vertex_count,

@@ -142,8 +142,8 @@ typedef struct clusters {
 
 void clusters_free(clusters_t *clusters);
 
-/* What a cluster costs, in instructions of a small core: see cluster.c. cosine: of the widest angle between its axis and its normals;
- * diagonal: of the box around it, in steps. */
+/* What a cluster costs, in instructions of a small core: see cluster.c. cosine: of the widest angle between its axis and its
+ * normals; diagonal: of the box around it, in steps. */
 double clusters_price(size_t vertices, size_t faces, double cosine, double diagonal, double eye_distance);
 double clusters_eye_distance(const solid_t *solid);
 

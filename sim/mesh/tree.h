@@ -47,9 +47,9 @@ typedef struct tree_list {
     size_t plane_round_capacity, point_round_capacity, piece_round_capacity;
     uint32_t *planes, *points; /* its support planes and points, each once */
     size_t plane_count, point_count, plane_capacity, point_capacity;
-    uint32_t (*witnesses)[2];             /* of each plane: points found on its plus and minus side, in lists before too */
-    int8_t *hull;                         /* of each plane of the list, after tree_list_hull */
-    uint32_t (*cuts)[TREE_CUTS_KEPT];     /* of each plane: pieces that it cut when last tried */
+    uint32_t (*witnesses)[2];         /* of each plane: points found on its plus and minus side, in lists before too */
+    int8_t *hull;                     /* of each plane of the list, after tree_list_hull */
+    uint32_t (*cuts)[TREE_CUTS_KEPT]; /* of each plane: pieces that it cut when last tried */
     size_t witness_capacity, hull_capacity, cut_capacity;
 } tree_list_t;
 

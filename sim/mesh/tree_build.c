@@ -45,8 +45,7 @@ static uint32_t new_node(builder_t *b, const task_t *task, uint32_t kind) {
         return TREE_NO_NODE;
     }
     const uint32_t node = (uint32_t)tree->node_count++;
-    tree->nodes[node] =
-        (tree_node_t){.kind = kind, .first = (uint32_t)tree->piece_count, .child = {TREE_NO_NODE, TREE_NO_NODE}};
+    tree->nodes[node] = (tree_node_t){.kind = kind, .first = (uint32_t)tree->piece_count, .child = {TREE_NO_NODE, TREE_NO_NODE}};
     if (task->parent != TREE_NO_NODE) { tree->nodes[task->parent].child[task->which] = node; }
     return node;
 }
@@ -100,7 +99,8 @@ static bool make_convex(builder_t *b, const task_t *task) {
     return push(b, child);
 }
 
-/* Faces in the plane go to the plus side, all of them: they are on the hull of that child, which is what the proof of termination needs.
+/* Faces in the plane go to the plus side, all of them: they are on the hull of that child, which is what the proof of termination
+ * needs.
  */
 static bool share_out(builder_t *b, const task_t *task, uint32_t plane, task_t children[2]) {
     for (size_t i = 0; i < task->count; i++) {
@@ -157,7 +157,8 @@ static bool next(builder_t *b) {
 
 int tree_build(tree_t *tree, space_t *space, const mesh_options_t *options, sim_error_t *error) {
     builder_t b = {.tree = tree, .space = space, .options = options};
-    task_t all = {.pieces = mesh_array(space->piece_count, sizeof *all.pieces), .count = space->piece_count, .parent = TREE_NO_NODE};
+    task_t all = {
+        .pieces = mesh_array(space->piece_count, sizeof *all.pieces), .count = space->piece_count, .parent = TREE_NO_NODE};
     bool good = all.pieces != NULL && all.count > 0;
     for (size_t i = 0; good && i < all.count; i++) {
         all.pieces[i] = (uint32_t)i;
@@ -175,6 +176,8 @@ int tree_build(tree_t *tree, space_t *space, const mesh_options_t *options, sim_
     }
     free(b.stack);
     tree_list_close(&b.list);
-    if (b.unsound) { return sim_fail(error, "internal: a display tree did not come nearer to its end at node %zu", tree->node_count); }
+    if (b.unsound) {
+        return sim_fail(error, "internal: a display tree did not come nearer to its end at node %zu", tree->node_count);
+    }
     return good ? 0 : sim_fail(error, "out of memory for the display tree of %zu faces", space->face_count);
 }

@@ -7,16 +7,16 @@
 #include <math.h>
 #include <string.h>
 
-#define FACES_MAX 64u          /* of a cluster */
-#define ARRANGED_FROM 32u      /* faces of a list: fewer are one cluster anyway */
-#define COST_CUT_IN_NODE 60.0  /* instructions: a node in two clusters needs both, perhaps one after the other */
+#define FACES_MAX 64u         /* of a cluster */
+#define ARRANGED_FROM 32u     /* faces of a list: fewer are one cluster anyway */
+#define COST_CUT_IN_NODE 60.0 /* instructions: a node in two clusters needs both, perhaps one after the other */
 
 /* ---- the order within a node -------------------------------------------------------------------------------- */
 
 typedef struct arranger {
     solid_t *solid;
     uint32_t *planes;
-    uint32_t *local;   /* of each vertex and place of the solid: its number among those of the list, or SPACE_NONE */
+    uint32_t *local; /* of each vertex and place of the solid: its number among those of the list, or SPACE_NONE */
     uint32_t *local_place;
     solid_face_t *faces;
     uint32_t *face_planes;

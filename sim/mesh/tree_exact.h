@@ -1,17 +1,17 @@
 /* Planes and points of the display tree's compiler, without rounding.
  *
- * All points are ORIGINAL ones (whole steps, |coordinate| < 2^15), an original edge cut by a plane, or where three planes meet; and all
- * planes are support planes of original faces. So nothing is ever computed from a computed point, and sizes stay bounded:
+ * All points are ORIGINAL ones (whole steps, |coordinate| < 2^15), an original edge cut by a plane, or where three planes meet; and
+ * all planes are support planes of original faces. So nothing is ever computed from a computed point, and sizes stay bounded:
  *
  *     plane    |n[k]| < 2^33 (a cross product of differences < 2^16), |d| = |n . p| <= 3 * 2^33 * 2^15 < 2^50
  *     point    (x, y, z) / w;  of three planes, w = det(n1, n2, n3) < 3 * 2^33 * 2^67 < 2^102, and x < 3 * 2^50 * 2^67 < 2^119
  *     side     n . x + d w < 2^155: 192 bits, as a product of 64 and 128 bits is summed in two halves
  *     order    x1 w2 against x2 w1: 256 bits
  *
- * Both questions are asked of doubles first. A coordinate divided out is wrong by less than 2^15 * 2^-51 = 2^-36 (x, w and the quotient
- * are rounded once each, 3 * 2^-53), and n . q + d in doubles is wrong by less than S * 2^-34 in all, S = |n0| + |n1| + |n2|: the inputs
- * give S * 2^-36, seven roundings of values <= 2 S * 2^15 give at most 7 * S * 2^-37. At whole points it is exact, as every partial
- * sum is an integer below 2^53. Beyond its error a double tells the sign; else the integers do.
+ * Both questions are asked of doubles first. A coordinate divided out is wrong by less than 2^15 * 2^-51 = 2^-36 (x, w and the
+ * quotient are rounded once each, 3 * 2^-53), and n . q + d in doubles is wrong by less than S * 2^-34 in all, S = |n0| + |n1| +
+ * |n2|: the inputs give S * 2^-36, seven roundings of values <= 2 S * 2^15 give at most 7 * S * 2^-37. At whole points it is exact,
+ * as every partial sum is an integer below 2^53. Beyond its error a double tells the sign; else the integers do.
  */
 #ifndef SIM_MESH_TREE_EXACT_H
 #define SIM_MESH_TREE_EXACT_H

@@ -2,17 +2,18 @@
  * cuts least of it.
  *
  * Both questions are asked of every list, and lists of one tree are much alike: a child is its parent without a few pieces. So each
- * plane remembers what decided about it last. A plane is not on the hull as long as one point on either side of it, found once, is still
- * in the list; and it is no candidate as long as it still cuts more pieces, found once, than the best plane does.
+ * plane remembers what decided about it last. A plane is not on the hull as long as one point on either side of it, found once, is
+ * still in the list; and it is no candidate as long as it still cuts more pieces, found once, than the best plane does.
  */
 #include "tree.h"
 
 #include <string.h>
 
-/* A plane is tried on all pieces, but given up as soon as it cuts more than the best one. When this many corners have been looked at
- * for one node, the best plane so far is taken; those with most remembered hope are tried first, in the order of their faces. Models
- * of a few thousand faces never come so far. */
-#define CHOICE_WORK 20000000u
+/* A plane is tried on all pieces, but given up as soon as it cuts more than the best one. So all can be tried, and are, in models
+ * of tens of thousands of faces (36 000 triangles never take a tenth of this). Beyond, when so many corners have been looked at for
+ * one node, the best plane so far is taken: those tried first are those that cut fewest when last tried, in the order of their
+ * faces. */
+#define CHOICE_WORK 1000000000u
 
 void tree_list_close(tree_list_t *list) {
     void *owned[] = {list->plane_round, list->point_round, list->piece_round, list->planes,
@@ -129,7 +130,7 @@ static unsigned cuts_known(const tree_list_t *list, uint32_t plane) {
 typedef struct tree_choice {
     uint32_t plane;
     size_t cuts, imbalance;
-    size_t work; /* corners looked at so far */
+    size_t work; /* corners looked at so far, about */
 } tree_choice_t;
 
 static void try_plane(tree_list_t *list, uint32_t plane, tree_choice_t *best) {

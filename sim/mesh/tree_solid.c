@@ -1,5 +1,5 @@
-/* The pieces of a display tree as a solid again: points that others made on a side are inserted into it, and only then positions are
- * rounded. What was one point stays one, so the pieces hold together as they did: each side has its opposite.
+/* The pieces of a display tree as a solid again: points that others made on a side are inserted into it, and only then positions
+ * are rounded. What was one point stays one, so the pieces hold together as they did: each side has its opposite.
  */
 #include "tree.h"
 
@@ -149,9 +149,8 @@ static long fan(maker_t *m, const int64_t normal[3]) {
             const int32_t three[3][3] = {{p[0], p[1], p[2]}, {q[0], q[1], q[2]}, {r[0], r[1], r[2]}};
             int64_t turn[3];
             solid_newell(three, 3, turn);
-            good += (double)turn[0] * (double)normal[0] + (double)turn[1] * (double)normal[1] +
-                        (double)turn[2] * (double)normal[2] >
-                    0;
+            good +=
+                (double)turn[0] * (double)normal[0] + (double)turn[1] * (double)normal[1] + (double)turn[2] * (double)normal[2] > 0;
         }
         if (good > most) {
             most = good;
@@ -230,8 +229,8 @@ static bool join(maker_t *m) {
     solid_t *out = m->out;
     out->corners = mesh_array(out->corner_count, sizeof *out->corners);
     if (!out->corners) { return false; }
-    out->vertex_count = meshopt_generateVertexRemap(out->corners, NULL, out->corner_count, m->vertices, out->corner_count,
-                                                    sizeof *m->vertices);
+    out->vertex_count =
+        meshopt_generateVertexRemap(out->corners, NULL, out->corner_count, m->vertices, out->corner_count, sizeof *m->vertices);
     for (size_t c = 0; c < out->corner_count; c++) { /* in place: a vertex never moves up */
         m->vertices[out->corners[c]] = m->vertices[c];
     }
@@ -246,8 +245,7 @@ static bool join(maker_t *m) {
     for (size_t v = 0; v < out->vertex_count; v++) {
         memcpy(places[v], out->vertices[v].position, sizeof out->vertices[v].position);
     }
-    out->place_count =
-        meshopt_generateVertexRemap(out->places, NULL, out->vertex_count, places, out->vertex_count, sizeof *places);
+    out->place_count = meshopt_generateVertexRemap(out->places, NULL, out->vertex_count, places, out->vertex_count, sizeof *places);
     free(places);
     return true;
 }
@@ -255,7 +253,8 @@ static bool join(maker_t *m) {
 /* ---- nodes -------------------------------------------------------------------------------------------------- */
 
 /* A plane whose numbers fit model.h: the normal rounded if it must be, turned about a point of the plane. That moves it by less
- * than 2^-12 steps anywhere in the model: each component is off by half of 2^-29 of the largest, over a distance of at most 2^17. */
+ * than 2^-12 steps anywhere in the model: each component is off by half of 2^-29 of the largest, over a distance of at most 2^17.
+ */
 static tree_plane_t stored_plane(const exact_plane_t *exact) {
     tree_plane_t plane = {.d = 0};
     int64_t most = 0;

@@ -70,9 +70,7 @@ static uint32_t enter_plane(space_t *space, const exact_plane_t *plane) {
     return found;
 }
 
-static bool point_equal(const space_t *space, uint32_t item, const void *key) {
-    return exact_same(&space->points[item], key);
-}
+static bool point_equal(const space_t *space, uint32_t item, const void *key) { return exact_same(&space->points[item], key); }
 
 static uint32_t enter_point(space_t *space, const exact_point_t *point) {
     if (space->point_count >= SPACE_NONE - 1 ||
@@ -80,8 +78,7 @@ static uint32_t enter_point(space_t *space, const exact_point_t *point) {
         return SPACE_NONE;
     }
     space->points[space->point_count] = *point;
-    uint32_t found =
-        table_find(space, &space->point_table, exact_hash(point), point_equal, point, (uint32_t)space->point_count);
+    uint32_t found = table_find(space, &space->point_table, exact_hash(point), point_equal, point, (uint32_t)space->point_count);
     space->point_count += found == space->point_count;
     return found;
 }
@@ -103,8 +100,7 @@ static uint32_t enter_edge(space_t *space, uint32_t a, uint32_t b) {
     const uint32_t ends[2] = {a < b ? a : b, a < b ? b : a};
     uint32_t line = new_line(space, true, ends[0], ends[1]);
     if (line == SPACE_NONE) { return SPACE_NONE; }
-    uint32_t found =
-        table_find(space, &space->edge_table, mix(mix(0, ends[0]), ends[1]), edge_equal, ends, line);
+    uint32_t found = table_find(space, &space->edge_table, mix(mix(0, ends[0]), ends[1]), edge_equal, ends, line);
     space->line_count -= found != line;
     return found;
 }
@@ -122,9 +118,7 @@ static bool mark(space_t *space, uint32_t line, uint32_t point) {
 
 /* ---- faces to pieces ---------------------------------------------------------------------------------------- */
 
-static const int16_t *place(const space_t *space, uint32_t point) {
-    return space->solid->vertices[space->places[point]].position;
-}
+static const int16_t *place(const space_t *space, uint32_t point) { return space->solid->vertices[space->places[point]].position; }
 
 static uint32_t new_piece(space_t *space, const space_corner_t *corners, size_t count, uint32_t face) {
     if (space->piece_count >= SPACE_NONE - 1 || space->corner_count + count >= SPACE_NONE ||
@@ -219,9 +213,8 @@ bool space_open(space_t *space, const solid_t *solid) {
     }
     for (size_t f = 0; f < solid->face_count; f++) {
         const solid_face_t *face = &solid->faces[f];
-        if (!(face->count == 3 || flat(solid, face)
-                  ? add_face(space, face, solid->corners + face->first, face->count, face->normal)
-                  : add_triangles(space, face))) {
+        if (!(face->count == 3 || flat(solid, face) ? add_face(space, face, solid->corners + face->first, face->count, face->normal)
+                                                    : add_triangles(space, face))) {
             return false;
         }
     }
@@ -229,10 +222,21 @@ bool space_open(space_t *space, const solid_t *solid) {
 }
 
 void space_close(space_t *space) {
-    void *owned[] = {space->planes,  space->points,           space->lines,             space->marks,
-                     space->corners, space->faces,            space->pieces,            space->places,
-                     space->signs,   space->plane_table.slots, space->point_table.slots, space->edge_table.slots,
-                     space->sorted,  space->halves[0],        space->halves[1]};
+    void *owned[] = {space->planes,
+                     space->points,
+                     space->lines,
+                     space->marks,
+                     space->corners,
+                     space->faces,
+                     space->pieces,
+                     space->places,
+                     space->signs,
+                     space->plane_table.slots,
+                     space->point_table.slots,
+                     space->edge_table.slots,
+                     space->sorted,
+                     space->halves[0],
+                     space->halves[1]};
     for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
         free(owned[i]);
     }
@@ -343,8 +347,7 @@ bool space_cut(space_t *space, uint32_t piece, uint32_t plane, uint32_t parts[2]
     size_t counts[2] = {0};
     if (line == SPACE_NONE || !mesh_reserve(&space->signs, &space->sign_capacity, from.count, 1)) { return false; }
     for (uint32_t i = 0; i < from.count; i++) {
-        space->signs[i] =
-            (int8_t)exact_side(&space->planes[plane], &space->points[space->corners[from.first + i].point]);
+        space->signs[i] = (int8_t)exact_side(&space->planes[plane], &space->points[space->corners[from.first + i].point]);
     }
     if (!cut_corners(space, &from, plane, line, counts)) { return false; }
     for (int half = 0; half < 2; half++) {

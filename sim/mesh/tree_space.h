@@ -15,14 +15,14 @@
 typedef struct space_table {
     struct space_slot {
         uint32_t item, hash;
-    } *slots;
+    } * slots;
     size_t capacity, count; /* capacity: 0 or a power of two */
 } space_table_t;
 
 typedef struct space_line {
     bool edge;
-    uint32_t of[2]; /* points of an edge; planes of a cut: the face's and the cutting one */
-    uint32_t marks; /* list of the points made on it */
+    uint32_t of[2];                /* points of an edge; planes of a cut: the face's and the cutting one */
+    uint32_t marks;                /* list of the points made on it */
     uint32_t sorted, sorted_count; /* once sorted: where they stand in space_t.sorted */
 } space_line_t;
 

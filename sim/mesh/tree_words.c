@@ -51,8 +51,8 @@ int tree_write_words(tree_t *tree, const clusters_t *clusters, sim_error_t *erro
             if (good) { tree->words[parent + 1] = (uint32_t)tree->word_count << 1; }
         }
         if (good && node->child[1] != TREE_NO_NODE) { second_of[node->child[1]] = (uint32_t)tree->word_count + 1; }
-        good = good && put_node(tree, node, second_of[n] != 0,
-                                node->kind == TREE_CONVEX ? cluster_of(clusters, &cluster, node->first) : 0);
+        good = good &&
+               put_node(tree, node, second_of[n] != 0, node->kind == TREE_CONVEX ? cluster_of(clusters, &cluster, node->first) : 0);
     }
     free(second_of);
     return good ? 0 : sim_fail(error, "the display tree of %zu nodes does not fit", tree->node_count);
