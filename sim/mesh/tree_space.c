@@ -290,16 +290,14 @@ static bool inside_is_plus(const space_t *space, const space_face_t *face, uint3
     return true;
 }
 
-/* There and back again along one line encloses nothing. */
-static size_t without_spikes(space_corner_t *corners, size_t count) {
+/* Two sides in a row on one line are one side, or a part of it: their common corner is noted on the line, and comes back in the end
+ * where it is needed. This takes away what bridges leave. */
+static size_t without_detours(space_corner_t *corners, size_t count) {
     for (size_t i = 0; i < count && count > 2;) {
-        size_t before = (i + count - 1) % count, after = (i + 1) % count;
-        if (corners[before].point == corners[after].point && corners[before].line == corners[i].line) {
-            corners[before].line = corners[after].line; /* i and after fall: before now begins the side after them */
-            size_t high = i > after ? i : after, low = i > after ? after : i;
-            memmove(corners + high, corners + high + 1, (count - high - 1) * sizeof *corners);
-            memmove(corners + low, corners + low + 1, (count - low - 2) * sizeof *corners);
-            count -= 2;
+        const size_t before = i ? i - 1 : count - 1, after = i + 1 < count ? i + 1 : 0;
+        if (corners[i].point == corners[after].point || corners[before].line == corners[i].line) {
+            memmove(corners + i, corners + i + 1, (count - i - 1) * sizeof *corners);
+            count--;
             i = 0;
         } else {
             i++;
@@ -351,7 +349,7 @@ bool space_cut(space_t *space, uint32_t piece, uint32_t plane, uint32_t parts[2]
     }
     if (!cut_corners(space, &from, plane, line, counts)) { return false; }
     for (int half = 0; half < 2; half++) {
-        counts[half] = without_spikes(space->halves[half], counts[half]);
+        counts[half] = without_detours(space->halves[half], counts[half]);
         parts[half] = new_piece(space, space->halves[half], counts[half], from.face);
         if (parts[half] == SPACE_NONE) { return false; }
     }
