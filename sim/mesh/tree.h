@@ -37,6 +37,10 @@ void tree_free(tree_t *tree);
 /* ---- tree_list.c: what is asked about a list of pieces ------------------------------------------------------ */
 
 #define TREE_CUTS_KEPT 6u
+/* What a plane costs: so much for each piece that it cuts, and the difference between the numbers of pieces on its two sides. Cuts
+ * alone, balance only between equals, is the document's example, and poor: planes near the hull cut little, part off next to
+ * nothing, and the faces far away are cut again and again. DESIGN.md has the figures; 5 to 12 are about as good. */
+#define TREE_COST_CUT 8u
 
 typedef struct tree_list {
     const space_t *space;
@@ -64,8 +68,8 @@ bool tree_list_look(tree_list_t *list, const space_t *space, const uint32_t *pie
  * Returns whether any plane is not inside. */
 bool tree_list_hull(tree_list_t *list);
 
-/* The support plane that cuts fewest pieces; of those, the one that parts the list most evenly. Each of them must have points of
- * the list on both sides. */
+/* The support plane that costs least: TREE_COST_CUT for each piece that it cuts, and the difference of the numbers of pieces on its
+ * sides (those in the plane count as plus). Each of them must have points of the list on both sides. */
 uint32_t tree_list_choose(tree_list_t *list);
 
 /* Bit 0: the piece has corners on the plus side; bit 1: on the minus side. */

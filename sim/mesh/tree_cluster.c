@@ -10,7 +10,7 @@
 #define FACES_MAX 64u         /* of a cluster */
 #define ARRANGED_FROM 32u     /* faces of a list: fewer are one cluster anyway */
 #define COST_CUT_IN_NODE 60.0 /* instructions: a node in two clusters needs both, perhaps one after the other */
-#define COST_VISIT 300.0      /* a walk comes to a cluster more than once; without it there are five faces to a cluster, with it 30 */
+#define COST_VISIT 300.0 /* a walk comes to a cluster more than once; without it there are five faces to a cluster, with it 30 */
 
 /* ---- the order within a node -------------------------------------------------------------------------------- */
 

@@ -1,15 +1,16 @@
 /* What the display tree's compiler asks about a list of pieces: which of its planes have all of it on one side, and which plane
- * cuts least of it.
+ * parts it best.
  *
  * Both questions are asked of every list, and lists of one tree are much alike: a child is its parent without a few pieces. So each
  * plane remembers what decided about it last. A plane is not on the hull as long as one point on either side of it, found once, is
- * still in the list; and it is no candidate as long as it still cuts more pieces, found once, than the best plane does.
+ * still in the list; and it is no candidate as long as the pieces that it still cuts, found once, make it dearer than the best
+ * plane.
  */
 #include "tree.h"
 
 #include <string.h>
 
-/* A plane is tried on all pieces, but given up as soon as it cuts more than the best one. So all can be tried, and are, in models
+/* A plane is tried on all pieces, but given up as soon as it costs more than the best one. So all can be tried, and are, in models
  * of tens of thousands of faces (36 000 triangles never take a tenth of this). Beyond, when so many corners have been looked at for
  * one node, the best plane so far is taken: those tried first are those that cut fewest when last tried, in the order of their
  * faces. */
@@ -105,7 +106,7 @@ bool tree_list_hull(tree_list_t *list) {
     return any;
 }
 
-/* ---- the plane that cuts least ------------------------------------------------------------------------------ */
+/* ---- the plane that parts best ------------------------------------------------------------------------------ */
 
 unsigned tree_sides(const space_t *space, uint32_t piece_index, uint32_t plane) {
     const space_piece_t *piece = &space->pieces[piece_index];
@@ -129,14 +130,14 @@ static unsigned cuts_known(const tree_list_t *list, uint32_t plane) {
 
 typedef struct tree_choice {
     uint32_t plane;
-    size_t cuts, imbalance;
+    size_t cost;
     size_t work; /* corners looked at so far, about */
 } tree_choice_t;
 
 static void try_plane(tree_list_t *list, uint32_t plane, tree_choice_t *best) {
     size_t cuts = 0, counts[2] = {0};
     uint32_t found[TREE_CUTS_KEPT];
-    for (size_t i = 0; i < list->count && cuts <= best->cuts; i++) {
+    for (size_t i = 0; i < list->count && TREE_COST_CUT * cuts < best->cost; i++) {
         const unsigned sides = tree_sides(list->space, list->pieces[i], plane);
         best->work += 3;
         if (sides == 3) {
@@ -150,16 +151,15 @@ static void try_plane(tree_list_t *list, uint32_t plane, tree_choice_t *best) {
         list->cuts[plane][i] = i < cuts ? found[i] : SPACE_NONE;
     }
     const size_t imbalance = counts[0] > counts[1] ? counts[0] - counts[1] : counts[1] - counts[0];
-    if (cuts < best->cuts || (cuts == best->cuts && imbalance < best->imbalance)) {
+    if (TREE_COST_CUT * cuts + imbalance < best->cost) {
         best->plane = plane;
-        best->cuts = cuts;
-        best->imbalance = imbalance;
+        best->cost = TREE_COST_CUT * cuts + imbalance;
     }
 }
 
 uint32_t tree_list_choose(tree_list_t *list) {
-    tree_choice_t best = {.plane = list->planes[0], .cuts = SIZE_MAX, .imbalance = SIZE_MAX};
-    for (unsigned hope = 0; hope <= TREE_CUTS_KEPT && hope <= best.cuts; hope++) {
+    tree_choice_t best = {.plane = list->planes[0], .cost = SIZE_MAX};
+    for (unsigned hope = 0; hope <= TREE_CUTS_KEPT && TREE_COST_CUT * hope < best.cost; hope++) {
         for (size_t p = 0; p < list->plane_count; p++) {
             if (cuts_known(list, list->planes[p]) != hope) { continue; }
             try_plane(list, list->planes[p], &best);
