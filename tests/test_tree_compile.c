@@ -427,6 +427,29 @@ static void stars_through_one_another_stay_closed(void **state) {
     }
 }
 
+/* A model as people make them: open, with faces through one another and upon one another. */
+static void a_spider_is_drawn_from_back_to_front(void **state) {
+    (void)state;
+    compiled_t c = {0};
+    sim_error_t error = {""};
+    random_source_t random = random_seed(15);
+    const char *path = getenv("SPIDER");
+    if (!path) { skip(); }
+    assert_int_equal(mesh_import(&c.mesh, path, &error), 0);
+    double most = 0;
+    for (size_t p = 0; p < c.mesh.position_count; p++) {
+        for (int k = 0; k < 3; k++) {
+            most = fmax(most, fabs(c.mesh.positions[p][k]));
+        }
+    }
+    scale(&c.mesh, 32000 / most);
+    tree_check_t tree = tree_check_all(&c, false, NULL);
+    assert_true(c.report.tree.splits > 500);
+    assert_true(tree_check_order(&c, &tree, 16, 60, &random) > 1000);
+    tree_check_free(&tree);
+    decoder_drop(&c);
+}
+
 /* ---- what else is promised ---------------------------------------------------------------------------------- */
 
 static void a_bent_polygon_is_split_and_counted(void **state) {
@@ -543,6 +566,7 @@ int main(void) {
         cmocka_unit_test(what_was_closed_stays_closed),
         cmocka_unit_test(a_torus_stays_closed),
         cmocka_unit_test(stars_through_one_another_stay_closed),
+        cmocka_unit_test(a_spider_is_drawn_from_back_to_front),
         cmocka_unit_test(a_bent_polygon_is_split_and_counted),
         cmocka_unit_test(coplanar_faces_keep_their_order),
         cmocka_unit_test(the_same_mesh_gives_the_same_bytes),

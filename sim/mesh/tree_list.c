@@ -11,9 +11,8 @@
 #include <string.h>
 
 /* A plane is tried on all pieces, but given up as soon as it costs more than the best one. So all can be tried, and are, in models
- * of tens of thousands of faces (36 000 triangles never take a tenth of this). Beyond, when so many corners have been looked at for
- * one node, the best plane so far is taken: those tried first are those that cut fewest when last tried, in the order of their
- * faces. */
+ * of 36 000 triangles and some more. Beyond, when so many corners have been looked at for one node, the best plane so far is taken:
+ * those tried first are those that cut fewest when last tried, in the order of their faces. */
 #define CHOICE_WORK 1000000000u
 
 void tree_list_close(tree_list_t *list) {

@@ -154,8 +154,12 @@ static double value_at(const plane_t *plane, const double q[3]) {
 /* Of a face of the mesh: exact, as whole numbers that small are in doubles; from its first corners that are not in line, turned as
  * the whole polygon is. */
 static plane_t plane_of_source(const mesh_t *mesh, uint32_t source) {
-    const mesh_face_t *face = &mesh->faces[source];
+    size_t index = source < mesh->face_count ? source : mesh->face_count - 1;
     plane_t plane = {.d = 0};
+    while (mesh->faces[index].source > source) { /* some may have been left out by the importer */
+        index--;
+    }
+    const mesh_face_t *face = &mesh->faces[index];
     assert_int_equal(face->source, source);
     for (uint32_t i = 0; i < face->count; i++) { /* about the first corner */
         const double *o = mesh->positions[mesh->corners[face->first]];
@@ -171,7 +175,6 @@ static plane_t plane_of_source(const mesh_t *mesh, uint32_t source) {
         plane.length += plane.n[k] * plane.n[k];
     }
     plane.length = sqrt(plane.length);
-    assert_true(plane.length > 0);
     return plane;
 }
 
@@ -221,11 +224,11 @@ void tree_check_sides(const compiled_t *c, const tree_check_t *tree) {
 /* Moving a corner by ROUNDED changes an area by as much times half of the two sides beside it. */
 void tree_check_areas(const compiled_t *c) {
     for (uint32_t s = 0; s < c->mesh.face_count; s++) {
-        const plane_t plane = plane_of_source(&c->mesh, s);
+        const plane_t plane = plane_of_source(&c->mesh, c->mesh.faces[s].source);
         double sum[3] = {0}, slack = 2, off = 0, turned = 0;
         for (uint32_t f = 0; f < c->model.face_count; f++) {
             const decoder_face_t *face = &c->model.faces[f];
-            if (face->source != s) { continue; }
+            if (face->source != c->mesh.faces[s].source) { continue; }
             double n[3];
             assert_int_equal(face->material, c->mesh.faces[s].material);
             decoder_plane(face, n);
@@ -416,9 +419,14 @@ size_t tree_check_order(const compiled_t *c, const tree_check_t *tree, int eyes,
         draw(&p, 0);
         assert_int_equal(p.count, c->model.face_count);
         for (int r = 0; r < rays; r++) {
+            const decoder_face_t *at = &c->model.faces[random_between(random, 0, (int32_t)c->model.face_count - 1)];
+            const uint32_t corner = (uint32_t)random_between(random, 0, (int32_t)at->corners - 1);
+            const double u = random_real(random, 0, 1), v = random_real(random, 0, 1 - u);
             double ray[3], length = 0;
-            for (int k = 0; k < 3; k++) { /* to a point in the model */
-                ray[k] = random_real(random, low[k], high[k]) - p.eye[k];
+            for (int k = 0; k < 3; k++) { /* to a point on, or next to, a face */
+                const int32_t from = at->q[corner][k];
+                ray[k] = from + u * (at->q[(corner + 1) % at->corners][k] - from) +
+                         v * (at->q[(corner + 2) % at->corners][k] - from) - p.eye[k];
                 length += ray[k] * ray[k];
             }
             for (int k = 0; k < 3; k++) {
