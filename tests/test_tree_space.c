@@ -123,6 +123,79 @@ static void what_is_cut_keeps_its_area(void **state) {
     solid_free(&figure.solid);
 }
 
+/* Even-odd, of points that are on no side. */
+static bool covers(const space_t *space, uint32_t piece_index, double x, double y) {
+    const space_piece_t *piece = &space->pieces[piece_index];
+    bool inside = false;
+    for (uint32_t i = 0; i < piece->count; i++) {
+        const double *a = space->points[space->corners[piece->first + i].point].at;
+        const double *b = space->points[space->corners[piece->first + (i + 1) % piece->count].point].at;
+        if ((a[1] > y) != (b[1] > y) && a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > x) { inside = !inside; }
+    }
+    return inside;
+}
+
+/* Outlines that cross themselves anyhow, on a coarse grid so that planes go through corners and along sides, cut three times: each
+ * point is in one of the parts, or in none, as it was in the whole. */
+static void any_outline_is_cut_without_loss(void **state) {
+    (void)state;
+    random_source_t random = random_seed(30);
+    size_t cuts = 0;
+    for (int round = 0; round < CHECK_ROUNDS(2000); round++) {
+        figure_t figure = {.vertex_capacity = 0};
+        const uint32_t corners = (uint32_t)random_between(&random, 3, 9), walls = 3;
+        int16_t at[9][3] = {{0}};
+        for (uint32_t i = 0; i < corners; i++) {
+            do {
+                at[i][0] = (int16_t)(10 * random_between(&random, -4, 4));
+                at[i][1] = (int16_t)(10 * random_between(&random, -4, 4));
+            } while ((i > 0 && memcmp(at[i], at[i - 1], sizeof at[i]) == 0) || (i > 0 && memcmp(at[i], at[0], sizeof at[i]) == 0));
+        }
+        add(&figure, (const int16_t(*)[3])at, corners);
+        const int64_t *normal = figure.solid.faces[0].normal;
+        for (uint32_t w = 0; w < walls; w++) {
+            int16_t wall[3][3] = {{0}};
+            do {
+                for (int i = 0; i < 4; i++) {
+                    wall[i / 2][i % 2] = (int16_t)(10 * random_between(&random, -3, 3));
+                }
+            } while (memcmp(wall[0], wall[1], sizeof wall[0]) == 0);
+            memcpy(wall[2], wall[0], sizeof wall[2]);
+            wall[2][2] = 50;
+            add(&figure, (const int16_t(*)[3])wall, 3);
+        }
+        space_t space;
+        uint32_t parts[8] = {0};
+        size_t count = 1;
+        const bool good = normal[2] != 0;
+        assert_true(!good || space_open(&space, &figure.solid));
+        for (uint32_t w = 1; good && w <= walls; w++) {
+            for (size_t i = count; i-- > 0;) {
+                uint32_t halves[2];
+                if (tree_sides(&space, parts[i], space.faces[w].plane) != 3) { continue; }
+                assert_true(space_cut(&space, parts[i], space.faces[w].plane, halves));
+                parts[i] = halves[0];
+                parts[count++] = halves[1];
+                cuts++;
+                for (int h = 0; h < 2; h++) {
+                    assert_int_equal(tree_sides(&space, halves[h], space.faces[w].plane) & (h ? 1 : 2), 0);
+                }
+            }
+        }
+        for (int sample = 0; good && sample < 100; sample++) {
+            const double x = random_real(&random, -42, 42), y = random_real(&random, -42, 42);
+            unsigned covered = 0;
+            for (size_t i = 0; i < count; i++) {
+                covered += covers(&space, parts[i], x, y);
+            }
+            assert_int_equal(covered, covers(&space, 0, x, y));
+        }
+        if (good) { space_close(&space); }
+        solid_free(&figure.solid);
+    }
+    assert_true(cuts > (size_t)CHECK_ROUNDS(2000) * 2);
+}
+
 /* ---- lists ------------------------------------------------------------------------------------------------------ */
 
 /* By their definitions, exactly and without memory. */
@@ -207,6 +280,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_edge_in_the_plane_goes_to_the_part_that_it_bounds),
         cmocka_unit_test(what_is_cut_keeps_its_area),
+        cmocka_unit_test(any_outline_is_cut_without_loss),
         cmocka_unit_test(lists_are_described_as_defined),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

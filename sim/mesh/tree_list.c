@@ -136,6 +136,7 @@ typedef struct tree_choice {
 static void try_plane(tree_list_t *list, uint32_t plane, tree_choice_t *best) {
     size_t cuts = 0, counts[2] = {0};
     uint32_t found[TREE_CUTS_KEPT];
+    memset(found, 0xff, sizeof found); /* SPACE_NONE */
     for (size_t i = 0; i < list->count && TREE_COST_CUT * cuts < best->cost; i++) {
         const unsigned sides = tree_sides(list->space, list->pieces[i], plane);
         best->work += 3;
@@ -146,9 +147,7 @@ static void try_plane(tree_list_t *list, uint32_t plane, tree_choice_t *best) {
             counts[sides == 2]++; /* in the plane: to the plus side */
         }
     }
-    for (size_t i = 0; i < TREE_CUTS_KEPT; i++) {
-        list->cuts[plane][i] = i < cuts ? found[i] : SPACE_NONE;
-    }
+    memcpy(list->cuts[plane], found, sizeof found);
     const size_t imbalance = counts[0] > counts[1] ? counts[0] - counts[1] : counts[1] - counts[0];
     if (TREE_COST_CUT * cuts + imbalance < best->cost) {
         best->plane = plane;

@@ -228,7 +228,7 @@ static bool make_all(maker_t *m, tree_t *tree) {
 static bool join(maker_t *m) {
     solid_t *out = m->out;
     out->corners = mesh_array(out->corner_count, sizeof *out->corners);
-    if (!out->corners) { return false; }
+    if (!out->corners || !m->vertices) { return false; }
     out->vertex_count =
         meshopt_generateVertexRemap(out->corners, NULL, out->corner_count, m->vertices, out->corner_count, sizeof *m->vertices);
     for (size_t c = 0; c < out->corner_count; c++) { /* in place: a vertex never moves up */
