@@ -66,7 +66,7 @@ static int draw(faces_t *faces, const tuile_config_t *wanted, const scene_drawin
     tuile_instance_t instance = {.model = &model, .two_sided = true};
     tuile_scene_t scene = {.instances = &instance};
     tuile_config_t config = *wanted;
-    const mesh_options_t options = scene_text_mesh_options();
+    mesh_options_t options = scene_text_mesh_options();
     mesh_report_t report;
     size_t size_bytes, least;
     tuile_t *renderer;
@@ -80,6 +80,7 @@ static int draw(faces_t *faces, const tuile_config_t *wanted, const scene_drawin
     if (scene_text_camera(&faces->scene, &quantisation, &view, &error) != 0) { return command_fail("%s", error.text); }
     if (drawing->kind != SCENE_DRAW_FILL) { return draw_plain(faces, drawing, &quantisation, &view); }
     if (faces->mesh.face_count > 0) {
+        options.tree = config.method == TUILE_TREE;
         if (mesh_compile(&faces->mesh, &options, &faces->bytes, &size_bytes, &report, &error) != 0) {
             return command_fail("%s", error.text);
         }
@@ -88,6 +89,7 @@ static int draw(faces_t *faces, const tuile_config_t *wanted, const scene_drawin
         scene.instance_count = 1;
         config.cluster_vertices = model.cluster_vertices_max;
         config.corners = model.corners_max;
+        config.tree_depth = model.tree_depth;
     }
     instance.pose = view.pose;
     scene.camera = view.camera;

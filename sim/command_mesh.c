@@ -8,7 +8,7 @@
 #include <string.h>
 
 static const char usage[] =
-    "Usage: tuile mesh IN -o OUT.c|OUT.tuile [--name NAME] [--max-faces N] [--triangles]\n"
+    "Usage: tuile mesh IN -o OUT.c|OUT.tuile [--name NAME] [--max-faces N] [--triangles] [--tree]\n"
     "\n"
     "Reads a model (OBJ, glTF, PLY, STL, 3DS, Collada and what else Assimp knows) and writes it quantised, clustered and checked,\n"
     "as a C file with one const object for flash or as a .tuile file with the same bytes.\n"
@@ -16,7 +16,8 @@ static const char usage[] =
     "  -o FILE          where to write; the ending decides the form\n"
     "  --name NAME      C identifier of the object (.c only); by default from FILE\n"
     "  --max-faces N    simplify to at most N triangles\n"
-    "  --triangles      cut polygons into triangles (they keep the polygon's number); by default polygons stay polygons\n";
+    "  --triangles      cut polygons into triangles (they keep the polygon's number); by default polygons stay polygons\n"
+    "  --tree           with a display tree, by which faces are drawn from back to front without depth; it cuts some of them\n";
 
 static void mesh_report_print(const mesh_report_t *report) {
     (void)printf("vertices %zu, faces %zu (%zu n-gons), clusters %zu, %zu bytes\n", report->vertices, report->faces,
@@ -25,15 +26,32 @@ static void mesh_report_print(const mesh_report_t *report) {
                  report->non_planar, report->skipped, report->quantisation_error);
 }
 
+static void tree_report_print(const mesh_tree_report_t *tree) {
+    (void)printf("tree: faces %zu -> %zu, splits %zu, type-1 %zu, type-2 %zu, complexity %zu, depth %zu, bytes %zu\n",
+                 tree->faces_in, tree->faces_out, tree->splits, tree->convex_nodes, tree->plane_nodes, tree->plane_nodes,
+                 tree->depth, tree->size_bytes);
+    (void)printf("      not flat on the grid %zu, corners inserted along cuts %zu, pieces without area dropped %zu\n",
+                 tree->non_planar, tree->seam_corners, tree->dropped);
+}
+
+/* In steps of 1/1000. context: the last one shown. */
+static void show_progress(void *context, size_t done, size_t of) {
+    unsigned *shown = context, now = (unsigned)(1000.0 * (double)done / (double)(of ? of : 1));
+    if (now == *shown) { return; }
+    *shown = now;
+    command_progress(now, 1000);
+}
+
 int command_mesh(int count, char **arguments) {
     const char *in = NULL, *out = NULL, *name = NULL, *argument;
     long max_faces = 0;
     options_t options;
-    mesh_options_t mesh_options = {0};
     sim_error_t error = {""};
     uint8_t *bytes = NULL;
     size_t size_bytes = 0;
     mesh_report_t report;
+    unsigned shown = 0;
+    mesh_options_t compile = {.progress = show_progress, .progress_context = &shown};
 
     options_open(&options, count, arguments);
     while ((argument = options_next(&options)) != NULL) {
@@ -47,7 +65,9 @@ int command_mesh(int count, char **arguments) {
         } else if (strcmp(argument, "--max-faces") == 0) {
             (void)options_integer(&options, &max_faces, 1, 100000000);
         } else if (strcmp(argument, "--triangles") == 0) {
-            mesh_options.triangles = true;
+            compile.triangles = true;
+        } else if (strcmp(argument, "--tree") == 0) {
+            compile.tree = true;
         } else if (strcmp(argument, "--help") == 0) {
             (void)fputs(usage, stdout);
             return command_finish();
@@ -60,7 +80,7 @@ int command_mesh(int count, char **arguments) {
         (void)fputs(usage, stderr);
         return EXIT_USAGE;
     }
-    if (mesh_load(in, (size_t)max_faces, &mesh_options, &bytes, &size_bytes, &report, &error) != 0) {
+    if (mesh_load(in, (size_t)max_faces, &compile, &bytes, &size_bytes, &report, &error) != 0) {
         return command_fail("%s", error.text);
     }
     const int failed = mesh_write(bytes, size_bytes, out, name, &error);
@@ -68,5 +88,6 @@ int command_mesh(int count, char **arguments) {
     if (failed) { return command_fail("%s", error.text); }
     (void)printf("%s: ", out);
     mesh_report_print(&report);
+    if (report.tree.size_bytes) { tree_report_print(&report.tree); }
     return command_finish();
 }

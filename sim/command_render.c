@@ -291,6 +291,7 @@ static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t 
     tuile_config_t c = *config;
     c.cluster_vertices = model->cluster_vertices_max;
     c.corners = model->corners_max;
+    c.tree_depth = model->tree_depth;
     if (*memory_bytes == 0) {
         *memory_bytes = one_pass_bytes(model, &c);
         if (c.tile_height == 0) { c.tile_height = 16; }
@@ -308,6 +309,7 @@ static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t 
 static int set_up(render_t *r) {
     size_t size_bytes;
     mesh_report_t report;
+    r->mesh_options.tree = r->config.method == TUILE_TREE;
     if (mesh_load(r->model_path, (size_t)r->max_faces, &r->mesh_options, &r->bytes, &size_bytes, &report, &r->error) != 0) {
         return command_fail("%s", r->error.text);
     }

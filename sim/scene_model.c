@@ -119,7 +119,9 @@ int scene_text_mesh(const scene_text_t *scene, mesh_t *mesh, scene_quantisation_
     return 0;
 }
 
-mesh_options_t scene_text_mesh_options(void) { return (mesh_options_t){.keep_order = true, .keep_planar = true, .step = 1}; }
+mesh_options_t scene_text_mesh_options(void) {
+    return (mesh_options_t){.keep_order = true, .keep_planar = true, .step = 1, .two_sided = true};
+}
 
 /* number * 2^60, rounded down; |number| <= 2^14. *exact is cleared when there was anything to round. */
 static int128_t to_fixed60(scene_number_t number, bool *exact) {

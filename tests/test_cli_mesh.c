@@ -73,11 +73,46 @@ static void simplifying_keeps_to_the_number_of_faces(void **state) {
     (void)unlink(cli_path("small.json"));
 }
 
+/* The room: the walls, the floor and the box on it. Five nodes of type 1 at most (hull, then what is inside), by hand: the six
+ * walls are the hull; of the box, all but its bottom, which lies on the floor and so is on the hull as well. */
+static void a_display_tree_is_made_and_reported(void **state) {
+    (void)state;
+    char *out = cli_good("mesh @/room.obj -o @/tree.tuile --tree");
+    const char *line = strstr(out, "\ntree: faces 12 -> ");
+    assert_non_null(line);
+    unsigned faces, splits, convex, planes, complexity, depth, size;
+    assert_int_equal(sscanf(line, "\ntree: faces 12 -> %u, splits %u, type-1 %u, type-2 %u, complexity %u, depth %u, bytes %u\n",
+                            &faces, &splits, &convex, &planes, &complexity, &depth, &size),
+                     7);
+    assert_int_equal(faces, 12);
+    assert_int_equal(splits, 0);
+    assert_int_equal(convex, 2);
+    assert_int_equal(planes, 0);
+    assert_int_equal(complexity, 0);
+    assert_int_equal(depth, 2);
+    assert_int_equal(size, 2 * 4 * 4);
+    free(out);
+    size_t bytes, copied; /* it goes through unchanged, and is told from one without a tree */
+    char *with = command_read(cli_path("tree.tuile"), &bytes);
+    cli_good_silent("mesh @/tree.tuile -o @/copy.tuile --tree");
+    char *copy = command_read(cli_path("copy.tuile"), &copied);
+    assert_int_equal(copied, bytes);
+    assert_memory_equal(copy, with, bytes);
+    free(with);
+    free(copy);
+    cli_good_silent("mesh @/room.obj -o @/plain.tuile");
+    cli_fails("mesh @/plain.tuile -o @/no.tuile --tree", "plain.tuile", "display tree");
+    out = cli_good("mesh @/torus.obj -o @/few.tuile --max-faces 150 --tree"); /* counted before they are cut */
+    assert_in_range(cli_number_after(out, "tree: faces "), 50, 150);
+    free(out);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(c_and_tuile_files_hold_the_same_bytes),
         cmocka_unit_test(a_model_and_its_compiled_form_are_drawn_alike),
         cmocka_unit_test(simplifying_keeps_to_the_number_of_faces),
+        cmocka_unit_test(a_display_tree_is_made_and_reported),
     };
     return cmocka_run_group_tests_name("cli_mesh", tests, cli_set_up, cli_tear_down);
 }

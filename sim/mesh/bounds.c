@@ -17,7 +17,8 @@
  *
  * POLYGONS. Whether a polygon is turned away is the sign of its area in the window, which is the sum of those of any triangles
  * that it is cut into. If it is exactly planar they all share its normal; if it is only nearly so, their normals are
- * taken into the cone as well, as for each of them the argument holds by itself.
+ * taken into the cone as well, as for each of them the argument holds by itself. Not so those of pieces that the display tree's
+ * compiler has cut: they are flat before they are rounded, and slivers among them may point anywhere afterwards.
  */
 #include "stages.h"
 
@@ -131,7 +132,7 @@ static bool add_face(normals_t *normals, const solid_t *solid, const solid_face_
         normals->exact[normals->count][k] = face->normal[k];
     }
     normals->count++;
-    if (face->count == 3 || exactly_planar(solid, face)) { return true; }
+    if (face->count == 3 || face->piece || exactly_planar(solid, face)) { return true; }
     if (face->convex) {
         bool done = true;
         for (uint32_t i = 1; done && i + 1 < face->count; i++) {

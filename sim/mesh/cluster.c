@@ -79,6 +79,26 @@ static void tally_add(grower_t *g, tally_t *tally, uint32_t face_index) {
     tally->faces++;
 }
 
+double clusters_eye_distance(const solid_t *solid) {
+    double low[3] = {DBL_MAX, DBL_MAX, DBL_MAX}, high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX}, squares = 0;
+    for (size_t v = 0; v < solid->vertex_count; v++) {
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], solid->vertices[v].position[k]);
+            high[k] = fmax(high[k], solid->vertices[v].position[k]);
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        squares += (high[k] - low[k]) * (high[k] - low[k]);
+    }
+    return EYE_DISTANCE * sqrt(squares) / 2;
+}
+
+double clusters_price(size_t vertices, size_t faces, double cosine, double diagonal, double eye_distance) {
+    double sine = cosine > 0 ? sqrt(fmax(0, 1 - cosine * cosine)) : 1;
+    double away = fmax(0, 1 - sine - diagonal / 2 / eye_distance) / 2;
+    return COST_CLUSTER + (1 - away) * (COST_VERTEX * (double)vertices + COST_FACE * (double)faces);
+}
+
 /* The cost of the union of two lists of faces, without the face `left_out`; infinite when it is too large, 0 when it is empty.
  * The sphere is taken around the box and the cone around the mean: near enough to compare. */
 static double cost_of(grower_t *g, const group_t *a, const group_t *b, uint32_t left_out, uint32_t added) {
@@ -111,9 +131,7 @@ static double cost_of(grower_t *g, const group_t *a, const group_t *b, uint32_t 
     for (int k = 0; k < 3; k++) {
         diagonal += (tally.high[k] - tally.low[k]) * (tally.high[k] - tally.low[k]);
     }
-    double sine = cosine > 0 ? sqrt(fmax(0, 1 - cosine * cosine)) : 1;
-    double away = fmax(0, 1 - sine - sqrt(diagonal) / 2 / g->eye_distance) / 2;
-    return COST_CLUSTER + (1 - away) * (COST_VERTEX * (double)tally.vertices + COST_FACE * (double)tally.faces);
+    return clusters_price(tally.vertices, tally.faces, cosine, sqrt(diagonal), g->eye_distance);
 }
 
 /* ---- the heap of candidates ---------------------------------------------------------------------------------- */
@@ -367,17 +385,7 @@ static void grow_in_order(grower_t *g) {
 
 static bool begin(grower_t *g) {
     const solid_t *solid = g->solid;
-    double low[3] = {DBL_MAX, DBL_MAX, DBL_MAX}, high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX}, squares = 0;
-    for (size_t v = 0; v < solid->vertex_count; v++) {
-        for (int k = 0; k < 3; k++) {
-            low[k] = fmin(low[k], solid->vertices[v].position[k]);
-            high[k] = fmax(high[k], solid->vertices[v].position[k]);
-        }
-    }
-    for (int k = 0; k < 3; k++) {
-        squares += (high[k] - low[k]) * (high[k] - low[k]);
-    }
-    g->eye_distance = EYE_DISTANCE * sqrt(squares) / 2;
+    g->eye_distance = clusters_eye_distance(solid);
     g->groups = mesh_array(solid->face_count, sizeof *g->groups);
     g->parent = mesh_array(solid->face_count, sizeof *g->parent);
     g->group_of = mesh_array(solid->face_count, sizeof *g->group_of);

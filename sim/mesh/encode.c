@@ -13,7 +13,7 @@ typedef struct sheet { /* a growing section */
 typedef struct encoder {
     const solid_t *solid;
     const clusters_t *clusters;
-    sheet_t positions, normals, table, faces, face_normals, materials, source;
+    sheet_t positions, normals, table, faces, face_normals, materials, source, tree;
     uint32_t *local;    /* of each vertex of the solid: its place in the cluster at hand */
     uint32_t *vertices; /* of the cluster at hand, at most 255 */
     size_t vertex_count, face_count, cluster_vertices_max, corners_max;
@@ -170,18 +170,19 @@ static void write_box(const sheet_t *positions, uint8_t *low, uint8_t *high) {
     }
 }
 
-static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32) {
+static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32, const tree_section_t *tree) {
     const solid_t *solid = e->solid;
     for (size_t i = 0; i < MODEL_HEADER_BYTES; i++) {
         put(e, out, 0, 1);
     }
-    uint32_t at[7] = {place(out, e, &e->positions), 0};
+    uint32_t at[8] = {place(out, e, &e->positions), 0};
     at[1] = place(out, e, &e->normals);
     at[2] = place(out, e, &e->table);
     at[3] = place(out, e, &e->faces);
     at[4] = place(out, e, &e->face_normals);
     at[5] = place(out, e, &e->materials);
     at[6] = place(out, e, &e->source);
+    at[7] = place(out, e, &e->tree);
     for (size_t v = 0; v < solid->vertex_count && v < UINT32_MAX; v++) {
         e->local[v] = (uint32_t)v;
     }
@@ -215,11 +216,14 @@ static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32
     write_u32(header + MODEL_AT_FACE_NORMALS, at[4]);
     write_u32(header + MODEL_AT_MATERIAL_TABLE, at[5]);
     write_u32(header + MODEL_AT_SOURCE, at[6]);
+    write_u32(header + MODEL_AT_TREE, at[7]);
+    write_u32(header + MODEL_AT_TREE_WORDS, tree ? (uint32_t)tree->count : 0);
+    write_u16(header + MODEL_AT_TREE_DEPTH, tree ? (uint32_t)tree->depth : 0);
     write_u32(header + MODEL_AT_CRC32, model_crc32(0, header + MODEL_AT_VERSION, out->size - MODEL_AT_VERSION));
 }
 
-int solid_encode(const solid_t *solid, const clusters_t *clusters, const mesh_t *mesh, uint8_t **bytes, size_t *size_bytes,
-                 size_t *vertex_count, sim_error_t *error) {
+int solid_encode(const solid_t *solid, const clusters_t *clusters, const mesh_t *mesh, const tree_section_t *tree, uint8_t **bytes,
+                 size_t *size_bytes, size_t *vertex_count, sim_error_t *error) {
     encoder_t e = {.solid = solid, .clusters = clusters};
     sheet_t out = {0};
     e.local = mesh_array(solid->vertex_count, sizeof *e.local);
@@ -239,8 +243,11 @@ int solid_encode(const solid_t *solid, const clusters_t *clusters, const mesh_t 
     }
     bool source32 = encode_source(&e, mesh->source_face_count);
     align(&e, &e.faces);
-    if (!e.failed) { finish(&e, &out, mesh, source32); }
-    sheet_t *sections[] = {&e.positions, &e.normals, &e.table, &e.faces, &e.face_normals, &e.materials, &e.source};
+    for (size_t i = 0; tree && i < tree->count; i++) {
+        put(&e, &e.tree, tree->words[i], 4);
+    }
+    if (!e.failed) { finish(&e, &out, mesh, source32, tree); }
+    sheet_t *sections[] = {&e.positions, &e.normals, &e.table, &e.faces, &e.face_normals, &e.materials, &e.source, &e.tree};
     for (size_t s = 0; s < sizeof sections / sizeof sections[0]; s++) {
         free(sections[s]->bytes);
     }

@@ -32,8 +32,13 @@ static int load_compiled(const char *path, size_t max_faces, const mesh_options_
                         "%s: is compiled already and has %u faces, more than the %zu asked for; compile it anew from its source",
                         path, model.face_count, max_faces);
     }
-    if (options && options->triangles && model.corners_max > 3) {
+    if (options->triangles && model.corners_max > 3) {
         return sim_fail(error, "%s: is compiled already and has polygons; compile it anew from its source for triangles", path);
+    }
+    if (options->tree && !model.tree) {
+        return sim_fail(error,
+                        "%s: is compiled already, without a display tree; make one from its source: tuile mesh SOURCE -o %s --tree",
+                        path, path);
     }
     if (report) {
         *report = (mesh_report_t){.vertices = model.vertex_count,
@@ -45,7 +50,8 @@ static int load_compiled(const char *path, size_t max_faces, const mesh_options_
     return 0;
 }
 
-/* Polygons are kept while they are few enough; what is counted are the faces that come out, as bent ones are cut. */
+/* Polygons are kept while they are few enough; what is counted are the faces that come out, as bent ones are cut, but before a tree
+ * cuts them. */
 static int load_source(const char *path, size_t max_faces, const mesh_options_t *options, uint8_t **bytes, size_t *size_bytes,
                        mesh_report_t *report, sim_error_t *error) {
     mesh_t mesh;
@@ -53,11 +59,14 @@ static int load_source(const char *path, size_t max_faces, const mesh_options_t 
     if (mesh_import(&mesh, path, error)) { return -1; }
     int status = 0;
     bool few = !max_faces || mesh.face_count <= max_faces;
-    if (few) { status = mesh_compile(&mesh, options, bytes, size_bytes, &counts, error); }
-    if (!status && max_faces && (!few || counts.faces > max_faces)) {
+    mesh_options_t plain = *options;
+    plain.tree = options->tree && !max_faces;
+    if (few) { status = mesh_compile(&mesh, &plain, bytes, size_bytes, &counts, error); }
+    const bool many = !few || (max_faces && counts.faces > max_faces);
+    if (!status && (many || plain.tree != options->tree)) {
         free(*bytes);
         *bytes = NULL;
-        status = mesh_simplify(&mesh, max_faces, error);
+        if (many) { status = mesh_simplify(&mesh, max_faces, error); }
         if (!status) { status = mesh_compile(&mesh, options, bytes, size_bytes, &counts, error); }
     }
     if (status && error) { /* the later stages do not know the file */
@@ -71,6 +80,8 @@ static int load_source(const char *path, size_t max_faces, const mesh_options_t 
 
 int mesh_load(const char *path, size_t max_faces, const mesh_options_t *options, uint8_t **bytes, size_t *size_bytes,
               mesh_report_t *report, sim_error_t *error) {
+    static const mesh_options_t defaults = {0};
+    if (!options) { options = &defaults; }
     char *text;
     size_t length;
     *bytes = NULL;

@@ -1,4 +1,4 @@
-#include "stages.h"
+#include "tree.h"
 
 #include <math.h>
 #include <string.h>
@@ -55,27 +55,73 @@ static int check(const mesh_t *mesh, sim_error_t *error) {
     return 0;
 }
 
+typedef struct compiling {
+    solid_t solid;
+    clusters_t clusters;
+    tree_t tree;
+    mesh_tree_report_t counts;
+} compiling_t;
+
+static void count_tree(mesh_tree_report_t *counts, const tree_t *tree, const space_t *space) {
+    for (size_t n = 0; n < tree->node_count; n++) {
+        ++*(tree->nodes[n].kind == TREE_CONVEX ? &counts->convex_nodes : &counts->plane_nodes);
+    }
+    counts->depth = tree->depth;
+    counts->splits = space->splits;
+    counts->non_planar = space->non_planar;
+}
+
+/* The solid in the order of its display tree, in place of the one that was. */
+static int compile_tree(compiling_t *c, const mesh_options_t *options, sim_error_t *error) {
+    space_t space;
+    solid_t ordered = {0};
+    tree_counts_t counts = {0};
+    c->counts.faces_in = c->solid.face_count;
+    int status = space_open(&space, &c->solid) ? 0 : sim_fail(error, "out of memory for %zu faces", c->solid.face_count);
+    if (!status) { status = tree_build(&c->tree, &space, options, error); }
+    if (!status) { status = tree_make_solid(&c->tree, &space, &ordered, options, &counts, error); }
+    count_tree(&c->counts, &c->tree, &space);
+    c->counts.faces_out = ordered.face_count;
+    c->counts.seam_corners = counts.seam_corners;
+    c->counts.dropped = counts.dropped;
+    space_close(&space);
+    solid_free(&c->solid);
+    c->solid = ordered;
+    if (!status) { status = tree_cut_clusters(&c->tree, &c->solid, &c->clusters, error); }
+    if (!status) { status = tree_write_words(&c->tree, &c->clusters, error); }
+    c->counts.size_bytes = 4 * c->tree.word_count;
+    return status;
+}
+
 static int compile(const mesh_t *mesh, const mesh_options_t *options, uint8_t **bytes, size_t *size_bytes, mesh_report_t *report,
                    sim_error_t *error) {
-    solid_t solid = {0};
-    clusters_t clusters = {0};
+    compiling_t c = {.counts = {0}};
     size_t vertex_count = 0;
-    int status = solid_quantise(&solid, mesh, options, error);
-    if (!status) { status = clusters_grow(&clusters, &solid, options->keep_order, error); }
-    if (!status) { status = solid_encode(&solid, &clusters, mesh, bytes, size_bytes, &vertex_count, error); }
+    int status = solid_quantise(&c.solid, mesh, options, error);
+    if (!status && options->tree) {
+        status = compile_tree(&c, options, error);
+    } else if (!status) {
+        status = clusters_grow(&c.clusters, &c.solid, options->keep_order, error);
+    }
+    const tree_section_t tree = {c.tree.words, c.tree.word_count, c.tree.depth};
+    if (!status) {
+        status = solid_encode(&c.solid, &c.clusters, mesh, options->tree ? &tree : NULL, bytes, size_bytes, &vertex_count, error);
+    }
     if (!status && report) {
         *report = (mesh_report_t){.vertices = vertex_count,
-                                  .faces = solid.face_count,
-                                  .polygons = solid.polygons,
-                                  .non_planar = solid.non_planar,
-                                  .split = solid.split,
-                                  .skipped = mesh->skipped_count + solid.skipped,
-                                  .clusters = clusters.count,
+                                  .faces = c.solid.face_count,
+                                  .polygons = c.solid.polygons,
+                                  .non_planar = c.solid.non_planar,
+                                  .split = c.solid.split,
+                                  .skipped = mesh->skipped_count + c.solid.skipped,
+                                  .clusters = c.clusters.count,
                                   .size_bytes = *size_bytes,
-                                  .quantisation_error = solid.error};
+                                  .tree = c.counts,
+                                  .quantisation_error = c.solid.error};
     }
-    clusters_free(&clusters);
-    solid_free(&solid);
+    tree_free(&c.tree);
+    clusters_free(&c.clusters);
+    solid_free(&c.solid);
     return status;
 }
 

@@ -1,6 +1,7 @@
 /* The model compiler: a file of some format in, the bytes of geometry/model.h out.
  *
  *   import (Assimp)  ->  mesh_t  ->  simplify (meshoptimizer)  ->  check and split  ->  quantise  ->  cluster  ->  encode  -> write
+ *                                                                                  \  display tree  /
  */
 #ifndef SIM_MESH_MESH_H
 #define SIM_MESH_MESH_H
@@ -55,7 +56,24 @@ typedef struct mesh_options {
     bool triangles;   /* every polygon is cut into triangles, which keep its source number */
     bool keep_planar; /* take polygons for planar: no test, no split for it; a mesh without normals is then lit flat */
     double step;      /* quantisation step in model units, offset 0; 0 = the finest that holds the model */
+    bool tree;        /* with a display tree: faces are cut, and lie in its order */
+    bool two_sided;   /* faces are seen from both sides: those of a tree that look inwards are turned round, so that of coplanar
+                         ones the first stays first */
+    /* How far a tree is: `done` of `of` faces, which grow more as faces are cut. NULL = nobody asks. */
+    void (*progress)(void *context, size_t done, size_t of);
+    void *progress_context;
 } mesh_options_t;
+
+typedef struct mesh_tree_report {
+    size_t faces_in, faces_out;
+    size_t splits;
+    size_t convex_nodes, plane_nodes; /* the latter is the complexity of the tree */
+    size_t depth;                     /* nodes on the longest path */
+    size_t size_bytes;                /* of the section */
+    size_t non_planar;                /* polygons cut into triangles because they are not flat on the grid of steps */
+    size_t seam_corners;              /* corners inserted where others were cut */
+    size_t dropped;                   /* pieces without an area once rounded */
+} mesh_tree_report_t;
 
 typedef struct mesh_report {
     size_t vertices; /* of all clusters, so those on borders more than once */
@@ -66,6 +84,7 @@ typedef struct mesh_report {
     size_t skipped;    /* degenerate faces left out, by the importer or because they have no area once quantised */
     size_t clusters;
     size_t size_bytes;
+    mesh_tree_report_t tree;   /* zeros without a tree, and of one that was loaded */
     double quantisation_error; /* largest distance of a vertex from its quantised place, model units; 0 = exact */
 } mesh_report_t;
 
@@ -80,8 +99,9 @@ int mesh_compile(const mesh_t *mesh, const mesh_options_t *options, uint8_t **by
 int mesh_write(const uint8_t *bytes, size_t size_bytes, const char *path, const char *name, sim_error_t *error);
 
 /* Loads whatever a user may name: .tuile bytes as they are (known by their first four), anything else through import and compile
- * (max_faces 0 = all). A .tuile that has more faces than that, or polygons where options want triangles, is refused. options and
- * report may be NULL; of a .tuile it has the counts that the file tells. *bytes is malloc'ed, 4-byte aligned. */
+ * with options (NULL = all zero). max_faces 0 = all; faces that a tree cuts are counted before. A .tuile with more faces than
+ * that is refused, and so is one without a tree, or with polygons, where options ask for a tree or for triangles. report may be
+ * NULL; of a .tuile it has the counts that the file tells. *bytes is malloc'ed, 4-byte aligned. */
 int mesh_load(const char *path, size_t max_faces, const mesh_options_t *options, uint8_t **bytes, size_t *size_bytes,
               mesh_report_t *report, sim_error_t *error);
 

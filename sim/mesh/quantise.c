@@ -182,7 +182,7 @@ static bool planar(const mesh_t *mesh, const mesh_face_t *face, double tolerance
 }
 
 /* Newell's normal, exact: differences < 2^17, so a term is below 2^35, and 2^28 corners would fit. */
-static void newell(const int32_t (*points)[3], size_t count, int64_t normal[3]) {
+void solid_newell(const int32_t (*points)[3], size_t count, int64_t normal[3]) {
     normal[0] = normal[1] = normal[2] = 0;
     for (size_t i = 1; i + 1 < count; i++) {
         int64_t a[3], b[3];
@@ -204,7 +204,7 @@ static bool first_normal(const int32_t (*points)[3], size_t count, int64_t norma
             const int32_t corner[3][3] = {{points[0][0], points[0][1], points[0][2]},
                                           {points[j][0], points[j][1], points[j][2]},
                                           {points[i][0], points[i][1], points[i][2]}};
-            newell(corner, 3, normal);
+            solid_newell(corner, 3, normal);
             if (normal[0] || normal[1] || normal[2]) { return true; }
         }
     }
@@ -215,7 +215,7 @@ static bool first_normal(const int32_t (*points)[3], size_t count, int64_t norma
 static bool turns_left(const int32_t a[3], const int32_t b[3], const int32_t c[3], const int64_t normal[3]) {
     const int32_t corners[3][3] = {{a[0], a[1], a[2]}, {b[0], b[1], b[2]}, {c[0], c[1], c[2]}};
     int64_t cross[3];
-    newell(corners, 3, cross);
+    solid_newell(corners, 3, cross);
     mesh_int128_t sum = 0;
     for (int k = 0; k < 3; k++) {
         sum += (mesh_int128_t)cross[k] * normal[k];
@@ -225,7 +225,7 @@ static bool turns_left(const int32_t a[3], const int32_t b[3], const int32_t c[3
 
 /* Every corner turns left, every triangle of the fan from the first corner does, and the fan stays within half a turn: then its
  * triangles cover the polygon once. The last is what a polygon that winds around twice fails. */
-static bool convex(const int32_t (*points)[3], size_t count, const int64_t normal[3]) {
+bool solid_convex(const int32_t (*points)[3], size_t count, const int64_t normal[3]) {
     for (size_t i = 0; i < count; i++) {
         if (!turns_left(points[i], points[(i + 1) % count], points[(i + 2) % count], normal) ||
             (i > 0 && i + 1 < count && !turns_left(points[0], points[i], points[i + 1], normal)) ||
@@ -246,11 +246,11 @@ static int emit(work_t *w, const mesh_face_t *from, const uint32_t *pick, size_t
         {w->points[pick ? pick[1] : 1][0], w->points[pick ? pick[1] : 1][1], w->points[pick ? pick[1] : 1][2]},
         {w->points[pick ? pick[2] : 2][0], w->points[pick ? pick[2] : 2][1], w->points[pick ? pick[2] : 2][2]}};
     const int32_t(*points)[3] = pick ? triangle : (const int32_t(*)[3])w->points;
-    newell(points, count, face.normal);
+    solid_newell(points, count, face.normal);
     if (!face.normal[0] && !face.normal[1] && !face.normal[2] && (count == 3 || !first_normal(points, count, face.normal))) {
         return 0;
     }
-    face.convex = count == 3 || convex(points, count, face.normal);
+    face.convex = count == 3 || solid_convex(points, count, face.normal);
     double length = 0;
     for (int k = 0; k < 3; k++) {
         length += (double)face.normal[k] * (double)face.normal[k];
@@ -312,8 +312,8 @@ static bool quantise_face(work_t *w, const mesh_face_t *face) {
     bool split = bent || count > MESH_CORNERS_MAX || (w->options->triangles && count > 3);
     if (count > 3 && !split && !evenly_lit(w, count)) { /* interpolated light is only right on triangles: no fan, no single face */
         int64_t normal[3];
-        newell((const int32_t(*)[3])w->points, count, normal);
-        split = !convex((const int32_t(*)[3])w->points, count, normal);
+        solid_newell((const int32_t(*)[3])w->points, count, normal);
+        split = !solid_convex((const int32_t(*)[3])w->points, count, normal);
     }
     if (count < 3) {
         solid->skipped++;

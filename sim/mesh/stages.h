@@ -67,7 +67,8 @@ typedef struct solid_face {
     uint32_t first, count; /* in solid_t.corners; count 3 ... 255 */
     uint32_t material, source;
     bool convex;
-    int64_t normal[3]; /* Newell's, exact: twice the area long */
+    bool piece;        /* cut by the display tree's compiler: its corners were rounded, its normal is that of its support plane */
+    int64_t normal[3]; /* Newell's, exact: twice the area long; of a piece any length */
     double unit[3];
 } solid_face_t;
 
@@ -87,6 +88,12 @@ typedef struct solid {
 } solid_t;
 
 void solid_free(solid_t *solid);
+
+/* Newell's normal, exact. |coordinate| <= 2^16; count < 2^28. */
+void solid_newell(const int32_t (*points)[3], size_t count, int64_t normal[3]);
+
+/* Strictly convex as seen along its normal, and winding around once. */
+bool solid_convex(const int32_t (*points)[3], size_t count, const int64_t normal[3]);
 
 /* mesh must have normals. */
 int solid_quantise(solid_t *solid, const mesh_t *mesh, const mesh_options_t *options, sim_error_t *error);
@@ -134,11 +141,24 @@ typedef struct clusters {
 } clusters_t;
 
 void clusters_free(clusters_t *clusters);
+
+/* What a cluster costs, in instructions of a small core: see cluster.c. cosine: of the widest angle between its axis and its
+ * normals; diagonal: of the box around it, in steps. */
+double clusters_price(size_t vertices, size_t faces, double cosine, double diagonal, double eye_distance);
+double clusters_eye_distance(const solid_t *solid);
+
 int clusters_grow(clusters_t *clusters, const solid_t *solid, bool keep_order, sim_error_t *error);
 
 /* ---- encode.c ---------------------------------------------------------------------------------------------- */
 
-int solid_encode(const solid_t *solid, const clusters_t *clusters, const mesh_t *mesh, uint8_t **bytes, size_t *size_bytes,
-                 size_t *vertex_count, sim_error_t *error);
+/* The display tree's section, as words. */
+typedef struct tree_section {
+    const uint32_t *words;
+    size_t count, depth;
+} tree_section_t;
+
+/* tree NULL: none. */
+int solid_encode(const solid_t *solid, const clusters_t *clusters, const mesh_t *mesh, const tree_section_t *tree, uint8_t **bytes,
+                 size_t *size_bytes, size_t *vertex_count, sim_error_t *error);
 
 #endif

@@ -83,6 +83,7 @@ int main(int count, char **arguments) {
     config.warnock = (uint8_t)(count > 9 ? atoi(arguments[9]) : 0);
     config.cluster_vertices = model.cluster_vertices_max;
     config.corners = model.corners_max;
+    config.tree_depth = model.tree_depth;
     const size_t memory = (size_t)atol(arguments[7]);
     void *block = malloc(memory);
     int result = block ? tuile_init(&renderer, &config, block, memory, &wanted) : TUILE_ERROR_MEMORY;
