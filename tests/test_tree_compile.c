@@ -4,157 +4,9 @@
 #include "support/models.h"
 #include "support/random.h"
 #include "support/tree_check.h"
+#include "support/tree_models.h"
 
 #include <math.h>
-
-/* ---- models on whole coordinates ---------------------------------------------------------------------------- */
-
-static void scale(mesh_t *mesh, double factor) {
-    for (size_t p = 0; p < mesh->position_count; p++) {
-        for (int k = 0; k < 3; k++) {
-            mesh->positions[p][k] = round(mesh->positions[p][k] * factor);
-        }
-    }
-}
-
-static void turn_inside_out(mesh_t *mesh) {
-    for (size_t f = 0; f < mesh->face_count; f++) {
-        uint32_t *corners = mesh->corners + mesh->faces[f].first;
-        for (uint32_t i = 0, j = mesh->faces[f].count - 1; i < j; i++, j--) {
-            const uint32_t swap = corners[i];
-            corners[i] = corners[j];
-            corners[j] = swap;
-        }
-    }
-}
-
-static void triangle(mesh_t *mesh, const int32_t corners[3][3]) {
-    uint32_t at[3];
-    for (int i = 0; i < 3; i++) {
-        at[i] = model_position(mesh, corners[i][0], corners[i][1], corners[i][2]);
-    }
-    model_face(mesh, at, 3, model_material(mesh, 200, 200, 200));
-}
-
-static void quad(mesh_t *mesh, const int32_t corners[4][3]) {
-    uint32_t at[4];
-    for (int i = 0; i < 4; i++) {
-        at[i] = model_position(mesh, corners[i][0], corners[i][1], corners[i][2]);
-    }
-    model_face(mesh, at, 4, model_material(mesh, 200, 200, 200));
-}
-
-static void box(mesh_t *mesh, int32_t x0, int32_t y0, int32_t z0, int32_t x1, int32_t y1, int32_t z1) {
-    const double low[3] = {x0, y0, z0}, high[3] = {x1, y1, z1};
-    model_box(mesh, low, high, model_material(mesh, 200, 200, 200));
-}
-
-/* The position that is there already, or a new one. */
-static uint32_t joined_position(mesh_t *mesh, const double at[3]) {
-    for (uint32_t p = 0; p < mesh->position_count; p++) {
-        if (memcmp(mesh->positions[p], at, sizeof mesh->positions[p]) == 0) { return p; }
-    }
-    return model_position(mesh, at[0], at[1], at[2]);
-}
-
-/* An icosahedron whose faces are cut into divisions^2, all corners then moved out to the sphere. */
-static void icosphere(mesh_t *mesh, unsigned divisions, double radius) {
-    static const uint8_t faces[20][3] = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                                         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                                         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
-    const double t = (1 + sqrt(5)) / 2;
-    const double corners[12][3] = {{-1, t, 0},  {1, t, 0},  {-1, -t, 0}, {1, -t, 0}, {0, -1, t},  {0, 1, t},
-                                   {0, -1, -t}, {0, 1, -t}, {t, 0, -1},  {t, 0, 1},  {-t, 0, -1}, {-t, 0, 1}};
-    model_start(mesh);
-    for (unsigned f = 0; f < 20; f++) {
-        for (unsigned a = 0; a < divisions; a++) {
-            for (unsigned b = 0; a + b < divisions; b++) {
-                for (unsigned half = 0; half < (a + b + 1 < divisions ? 2u : 1u); half++) {
-                    const unsigned parts[2][3][2] = {{{a, b}, {a + 1, b}, {a, b + 1}}, {{a + 1, b}, {a + 1, b + 1}, {a, b + 1}}};
-                    uint32_t at[3];
-                    for (int i = 0; i < 3; i++) {
-                        double p[3], squares = 0;
-                        for (int k = 0; k < 3; k++) {
-                            const unsigned u = parts[half][i][0], v = parts[half][i][1];
-                            p[k] = corners[faces[f][0]][k] * (divisions - u - v) + corners[faces[f][1]][k] * u +
-                                   corners[faces[f][2]][k] * v;
-                            squares += p[k] * p[k];
-                        }
-                        for (int k = 0; k < 3; k++) {
-                            p[k] = round(p[k] / sqrt(squares) * radius) + 0.0;
-                        }
-                        at[i] = joined_position(mesh, p);
-                    }
-                    model_face(mesh, at, 3, model_material(mesh, 200, 200, 200));
-                }
-            }
-        }
-    }
-}
-
-/* dot(cross(b - a, c - a), d - a), exact. */
-static int64_t volume(const int32_t a[3], const int32_t b[3], const int32_t c[3], const int32_t d[3]) {
-    int64_t sum = 0;
-    for (int k = 0; k < 3; k++) {
-        const int y = (k + 1) % 3, z = (k + 2) % 3;
-        sum += ((int64_t)(b[y] - a[y]) * (c[z] - a[z]) - (int64_t)(b[z] - a[z]) * (c[y] - a[y])) * (d[k] - a[k]);
-    }
-    return sum;
-}
-
-/* The hull of random points by its definition: every triangle that has all others on one side. */
-static void random_hull(mesh_t *mesh, random_source_t *random) {
-    enum { POINTS = 16 };
-    int32_t at[POINTS][3];
-    uint32_t place[POINTS];
-    model_start(mesh);
-    for (int i = 0; i < POINTS; i++) {
-        for (int k = 0; k < 3; k++) {
-            at[i][k] = random_between(random, -30000, 30000);
-        }
-        place[i] = model_position(mesh, at[i][0], at[i][1], at[i][2]);
-    }
-    for (int i = 0; i < POINTS; i++) {
-        for (int j = 0; j < POINTS; j++) {
-            for (int k = 0; k < POINTS; k++) {
-                if (i == j || j == k || i == k || i > j || i > k) { continue; } /* the least number first */
-                bool outside = true;
-                for (int o = 0; o < POINTS && outside; o++) {
-                    outside = o == i || o == j || o == k || volume(at[i], at[j], at[k], at[o]) < 0;
-                }
-                const uint32_t corners[3] = {place[i], place[j], place[k]};
-                if (outside) { model_face(mesh, corners, 3, model_material(mesh, 200, 200, 200)); }
-            }
-        }
-    }
-}
-
-/* A bar with the outline of a star, about an axis of its own: two faces that are not convex, and 2 * points sides. */
-static void star_bar(mesh_t *mesh, int points, const int32_t axes[3][3], const int32_t middle[3]) {
-    uint32_t ring[2][32];
-    for (int e = 0; e < 2; e++) {
-        for (int i = 0; i < 2 * points; i++) {
-            const double radius = i % 2 ? 60 : 150, turn = 3.14159265358979 * i / points;
-            const double along[3] = {round(radius * cos(turn)), round(radius * sin(turn)), e ? 130 : -130};
-            double p[3];
-            for (int k = 0; k < 3; k++) {
-                p[k] = middle[k] + along[0] * axes[0][k] + along[1] * axes[1][k] + along[2] * axes[2][k];
-            }
-            ring[e][i] = model_position(mesh, p[0], p[1], p[2]);
-        }
-    }
-    uint32_t corners[32];
-    const uint32_t count = 2 * (uint32_t)points, material = model_material(mesh, 200, 200, 200);
-    model_face(mesh, ring[1], count, material);
-    for (uint32_t i = 0; i < count; i++) {
-        corners[i] = ring[0][count - 1 - i];
-    }
-    model_face(mesh, corners, count, material);
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t next = (i + 1) % count, side[4] = {ring[0][i], ring[0][next], ring[1][next], ring[1][i]};
-        model_face(mesh, side, 4, material);
-    }
-}
 
 /* ---- convex models ------------------------------------------------------------------------------------------ */
 
@@ -163,7 +15,7 @@ static void check_convex(void (*make)(mesh_t *mesh, unsigned size), unsigned siz
     for (int inside = 0; inside < 2; inside++) {
         compiled_t c = {0};
         make(&c.mesh, size);
-        if (inside) { turn_inside_out(&c.mesh); }
+        if (inside) { tree_model_turn_inside_out(&c.mesh); }
         tree_check_t tree = tree_check_all(&c, true, NULL);
         assert_int_equal(c.report.tree.plane_nodes, 0);
         assert_int_equal(c.report.tree.convex_nodes, 1);
@@ -178,14 +30,14 @@ static void check_convex(void (*make)(mesh_t *mesh, unsigned size), unsigned siz
 
 static void make_cube(mesh_t *mesh, unsigned size) {
     model_cube(mesh);
-    scale(mesh, size);
+    tree_model_scale(mesh, size);
 }
 
-static void make_icosphere(mesh_t *mesh, unsigned divisions) { icosphere(mesh, divisions, 30000); }
+static void make_icosphere(mesh_t *mesh, unsigned divisions) { tree_model_icosphere(mesh, divisions, 30000); }
 
 static void make_hull(mesh_t *mesh, unsigned seed) {
     random_source_t random = random_seed(seed + 1);
-    random_hull(mesh, &random);
+    tree_model_hull(mesh, &random);
 }
 
 static void convex_models_are_one_node(void **state) {
@@ -207,7 +59,7 @@ static void a_flat_model_is_one_node(void **state) {
     model_start(&c.mesh);
     for (int i = 0; i < 3; i++) {
         const int32_t corners[4][3] = {{100 * i, 0, 0}, {100 * i + 150, 0, 0}, {100 * i + 150, 90, 45}, {100 * i, 90, 45}};
-        quad(&c.mesh, corners);
+        tree_model_quad(&c.mesh, corners);
     }
     tree_check_t tree = tree_check_all(&c, false, NULL);
     assert_int_equal(tree.node_count, 1);
@@ -232,8 +84,8 @@ static void a_staircase_of_n_steps_has_n_nodes(void **state) {
             const int32_t x = 200 * i, y = 150 * i;
             const int32_t riser[4][3] = {{x, y, 0}, {x, y, 700}, {x, y + 150, 700}, {x, y + 150, 0}};
             const int32_t tread[4][3] = {{x, y + 150, 0}, {x, y + 150, 700}, {x + 200, y + 150, 700}, {x + 200, y + 150, 0}};
-            quad(&c.mesh, riser);
-            quad(&c.mesh, tread);
+            tree_model_quad(&c.mesh, riser);
+            tree_model_quad(&c.mesh, tread);
         }
         tree_check_t tree = tree_check_all(&c, false, NULL);
         random_source_t random = random_seed(7);
@@ -257,13 +109,13 @@ static void nested_boxes_are_nodes_within_one_another(void **state) {
     model_start(&c.mesh);
     for (int i = 0; i < BOXES; i++) { /* out of their order; every other one is a room */
         const int32_t size = 100 * ((i * 4) % BOXES + 1);
-        box(&c.mesh, -size, -size, -size, size + 3, size + 2, size + 1);
+        tree_model_box(&c.mesh, -size, -size, -size, size + 3, size + 2, size + 1);
     }
     for (int i = 0; i < BOXES; i += 2) {
         mesh_t part = c.mesh;
         part.faces += 6 * i;
         part.face_count = 6;
-        turn_inside_out(&part);
+        tree_model_turn_inside_out(&part);
     }
     tree_check_t tree = tree_check_all(&c, true, NULL);
     random_source_t random = random_seed(8);
@@ -298,7 +150,7 @@ static void faces_that_overlap_in_a_ring_are_cut(void **state) {
             turned[k][1] = (int32_t)lround(sliver[k][0] * turns[i][1] + sliver[k][1] * turns[i][0]);
             turned[k][2] = sliver[k][2];
         }
-        triangle(&c.mesh, turned);
+        tree_model_triangle(&c.mesh, turned);
     }
     tree_check_t tree = tree_check_all(&c, false, NULL);
     random_source_t random = random_seed(9);
@@ -315,10 +167,10 @@ static void bars_that_overlap_in_a_ring_stay_closed(void **state) {
     compiled_t c = {0};
     random_source_t random = random_seed(10);
     model_start(&c.mesh);
-    box(&c.mesh, -900, -200, -60, 900, -100, 60);
-    box(&c.mesh, 100, -900, 0, 220, 900, 170);
-    box(&c.mesh, -120, -300, -300, -20, -30, 300);
-    box(&c.mesh, -400, -70, -200, 400, 60, -130);
+    tree_model_box(&c.mesh, -900, -200, -60, 900, -100, 60);
+    tree_model_box(&c.mesh, 100, -900, 0, 220, 900, 170);
+    tree_model_box(&c.mesh, -120, -300, -300, -20, -30, 300);
+    tree_model_box(&c.mesh, -400, -70, -200, 400, 60, -130);
     model_flat_normals(&c.mesh);
     tree_check_t tree = tree_check_all(&c, true, NULL);
     assert_true(c.report.tree.splits > 0 && c.report.tree.plane_nodes > 0);
@@ -341,7 +193,7 @@ static void random_triangles_are_drawn_from_back_to_front(void **state) {
             for (int i = 0; i < 9; i++) {
                 corners[i / 3][i % 3] = random_between(&random, -size, size);
             }
-            triangle(&c.mesh, corners);
+            tree_model_triangle(&c.mesh, corners);
         }
         tree_check_t tree = tree_check_all(&c, false, NULL);
         splits += c.report.tree.splits;
@@ -367,7 +219,7 @@ static void what_was_closed_stays_closed(void **state) {
             for (int k = 0; k < 12; k++) {
                 at[k / 3][k % 3] = random_between(&random, -size, size);
             }
-            if (volume(at[0], at[1], at[2], at[3]) == 0) { continue; }
+            if (tree_model_volume(at[0], at[1], at[2], at[3]) == 0) { continue; }
             static const uint8_t faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
             uint32_t places[4];
             for (int k = 0; k < 4; k++) {
@@ -394,7 +246,7 @@ static void a_torus_stays_closed(void **state) {
     compiled_t c = {0};
     random_source_t random = random_seed(13);
     model_torus(&c.mesh, 12, 8, true);
-    scale(&c.mesh, 9000);
+    tree_model_scale(&c.mesh, 9000);
     tree_check_t tree = tree_check_all(&c, true, NULL);
     assert_true(tree_check_order(&c, &tree, 40, 40, &random) > 500);
     tree_check_free(&tree);
@@ -415,7 +267,7 @@ static void stars_through_one_another_stay_closed(void **state) {
         for (int i = 0; i < 3; i++) {
             const int32_t middle[3] = {random_between(&random, -200, 200), random_between(&random, -200, 200),
                                        random_between(&random, -200, 200)};
-            star_bar(&c.mesh, random_between(&random, 3, 7), axes[(round + i) % 4], middle);
+            tree_model_star_bar(&c.mesh, random_between(&random, 3, 7), axes[(round + i) % 4], middle);
         }
         model_flat_normals(&c.mesh);
         tree_check_t tree = tree_check_all(&c, true, NULL);
@@ -442,7 +294,7 @@ static void a_spider_is_drawn_from_back_to_front(void **state) {
             most = fmax(most, fabs(c.mesh.positions[p][k]));
         }
     }
-    scale(&c.mesh, 32000 / most);
+    tree_model_scale(&c.mesh, 32000 / most);
     tree_check_t tree = tree_check_all(&c, false, NULL);
     assert_true(c.report.tree.splits > 500);
     assert_true(tree_check_order(&c, &tree, 16, 60, &random) > 1000);
@@ -457,7 +309,7 @@ static void a_bent_polygon_is_split_and_counted(void **state) {
     compiled_t c = {0};
     model_start(&c.mesh);
     const int32_t bent[4][3] = {{0, 0, 0}, {1000, 0, 0}, {1000, 1000, 1}, {0, 1000, 0}}; /* a quarter of a step: planar elsewhere */
-    quad(&c.mesh, bent);
+    tree_model_quad(&c.mesh, bent);
     mesh_options_t options = {.step = 1};
     decoder_compile_mesh(&c, &options);
     assert_int_equal(c.report.faces, 1);
@@ -474,6 +326,28 @@ static void a_bent_polygon_is_split_and_counted(void **state) {
     decoder_drop(&c);
 }
 
+/* An outline whose area, counted with its sign, is 0 has a plane all the same. It and a triangle go through one another: one of
+ * them is cut in two, and that is the whole tree. */
+static void a_bow_tie_is_cut_as_any_face(void **state) {
+    static const int32_t bow[4][3] = {{0, 0, 0}, {100, 100, 0}, {100, 0, 0}, {0, 100, 0}};
+    static const int32_t through[3][3] = {{30, -20, -70}, {30, 130, -70}, {30, 60, 90}};
+    (void)state;
+    compiled_t c = {0};
+    model_start(&c.mesh);
+    tree_model_quad(&c.mesh, bow);
+    tree_model_triangle(&c.mesh, through);
+    const mesh_options_t options = {.tree = true, .step = 1, .two_sided = true, .keep_planar = true, .keep_order = true};
+    decoder_compile_mesh(&c, &options);
+    tree_check_t tree = tree_check_read(&c);
+    assert_int_equal(c.report.faces, 3);
+    assert_int_equal(c.report.tree.splits, 1);
+    assert_int_equal(c.report.tree.plane_nodes, 1);
+    assert_int_equal(c.report.tree.convex_nodes, 2 + (tree.nodes[1].child[0] >= 0));
+    assert_int_equal(c.report.non_planar, 0);
+    tree_check_free(&tree);
+    decoder_drop(&c);
+}
+
 /* Of faces in one plane the one with the lower number in the file wins a tie. Two-sided, they are all turned outwards, so that
  * they stand in one list, in the order of the source. */
 static void coplanar_faces_keep_their_order(void **state) {
@@ -481,11 +355,11 @@ static void coplanar_faces_keep_their_order(void **state) {
     for (int two_sided = 0; two_sided < 2; two_sided++) {
         compiled_t c = {0};
         model_start(&c.mesh);
-        box(&c.mesh, 0, 0, -900, 1000, 1000, -800);
+        tree_model_box(&c.mesh, 0, 0, -900, 1000, 1000, -800);
         for (int i = 0; i < 100; i++) { /* above the box, seen from above and from below in turn */
             const int32_t x = 9 * (i * 37 % 100), up[4][3] = {{x, 0, 0}, {x + 50, 0, 0}, {x + 50, 300, 0}, {x, 300, 0}};
             const int32_t down[4][3] = {{x, 0, 0}, {x, 300, 0}, {x + 50, 300, 0}, {x + 50, 0, 0}};
-            quad(&c.mesh, i % 2 ? down : up);
+            tree_model_quad(&c.mesh, i % 2 ? down : up);
         }
         model_flat_normals(&c.mesh);
         const mesh_options_t options = {.two_sided = two_sided, .keep_order = two_sided};
@@ -511,6 +385,32 @@ static void coplanar_faces_keep_their_order(void **state) {
     }
 }
 
+/* Faces that share no vertex, all in one node: 128 vertices are 42 triangles, 255 are 4 of these polygons. The reader checks the
+ * limits of vertices. */
+static void clusters_keep_to_their_limits(void **state) {
+    (void)state;
+    for (int polygons = 0; polygons < 2; polygons++) {
+        compiled_t c = {0};
+        model_start(&c.mesh);
+        for (int i = 0; i < 200; i++) {
+            const double x = polygons ? i : 150 * (i % 20),
+                         y = 150 * (i / 20) * !polygons; /* polygons upon one another: joining them is cheap */
+            const uint32_t count = polygons ? 60 : 3;
+            uint32_t corners[60];
+            for (uint32_t k = 0; k < count; k++) {
+                const double turn = 6.283185307179586 * k / count;
+                corners[k] = model_position(&c.mesh, round(x + 70 * cos(turn)), round(y + 70 * sin(turn)), 5);
+            }
+            model_face(&c.mesh, corners, count, model_material(&c.mesh, 200, 200, 200));
+        }
+        tree_check_t tree = tree_check_all(&c, false, NULL);
+        assert_int_equal(tree.node_count, 1);
+        assert_true(c.report.clusters >= (polygons ? 50 : 5));
+        tree_check_free(&tree);
+        decoder_drop(&c);
+    }
+}
+
 static void the_same_mesh_gives_the_same_bytes(void **state) {
     (void)state;
     compiled_t c = {0};
@@ -518,7 +418,7 @@ static void the_same_mesh_gives_the_same_bytes(void **state) {
     uint8_t *bytes;
     size_t size_bytes;
     model_torus(&c.mesh, 12, 8, true);
-    scale(&c.mesh, 900);
+    tree_model_scale(&c.mesh, 900);
     tree_check_t tree = tree_check_all(&c, true, NULL);
     const mesh_options_t options = {.tree = true, .step = 1};
     assert_int_equal(mesh_compile(&c.mesh, &options, &bytes, &size_bytes, NULL, &error), 0);
@@ -544,7 +444,7 @@ static void progress_goes_to_its_end(void **state) {
     compiled_t c = {0};
     heard_t heard = {0};
     model_torus(&c.mesh, 12, 8, true);
-    scale(&c.mesh, 900);
+    tree_model_scale(&c.mesh, 900);
     const mesh_options_t options = {.progress = hear, .progress_context = &heard};
     tree_check_t tree = tree_check_all(&c, true, &options);
     assert_true(heard.calls > 10);
@@ -568,7 +468,9 @@ int main(void) {
         cmocka_unit_test(stars_through_one_another_stay_closed),
         cmocka_unit_test(a_spider_is_drawn_from_back_to_front),
         cmocka_unit_test(a_bent_polygon_is_split_and_counted),
+        cmocka_unit_test(a_bow_tie_is_cut_as_any_face),
         cmocka_unit_test(coplanar_faces_keep_their_order),
+        cmocka_unit_test(clusters_keep_to_their_limits),
         cmocka_unit_test(the_same_mesh_gives_the_same_bytes),
         cmocka_unit_test(progress_goes_to_its_end),
     };
