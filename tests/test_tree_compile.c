@@ -52,6 +52,91 @@ static void convex_models_are_one_node(void **state) {
     }
 }
 
+/* Convex in its own coordinates, but not quite on the grid: facets that lay in one plane, or in planes that nearly met, lean a step
+ * this way or that. kind 0: a sphere of quads cut in two; 1: a prism that stands askew, its ends cut into fans of slivers. */
+static void make_rounded(mesh_t *mesh, unsigned kind) {
+    enum { SIDES = 40, BELTS = 24 };
+    const double turn = 6.283185307179586 / SIDES;
+    model_start(mesh);
+    const uint32_t grey = model_material(mesh, 128, 128, 128);
+    uint32_t at[BELTS + 1][SIDES];
+    const int rows = kind == 0 ? BELTS + 1 : 2;
+    for (int i = 0; i < rows; i++) {
+        for (int j = 0; j < SIDES; j++) {
+            const double polar = 3.141592653589793 * i / BELTS, r = kind == 0 ? sin(polar) : 1.0,
+                         h = kind == 0 ? cos(polar) : 2 * i - 1;
+            const double x = r * cos(turn * j), z = r * sin(turn * j);
+            const bool pole = kind == 0 && (i == 0 || i == BELTS);
+            at[i][j] = pole && j
+                           ? at[i][0]
+                           : model_position(mesh, 0.8 * x - 0.6 * h, 0.48 * x + 0.64 * h - 0.6 * z, 0.36 * x + 0.48 * h + 0.8 * z);
+        }
+    }
+    for (int i = 0; i + 1 < rows; i++) {
+        for (int j = 0; j < SIDES; j++) {
+            const uint32_t a = at[i][j], b = at[i][(j + 1) % SIDES], c = at[i + 1][(j + 1) % SIDES], d = at[i + 1][j];
+            if (kind == 1 || i > 0) { model_face(mesh, (const uint32_t[3]){a, b, d}, 3, grey); }
+            if (kind == 1 || i + 2 < rows) { model_face(mesh, (const uint32_t[3]){b, c, d}, 3, grey); }
+        }
+    }
+    for (int j = 1; kind == 1 && j + 1 < SIDES; j++) {
+        model_face(mesh, (const uint32_t[3]){at[0][0], at[0][j + 1], at[0][j]}, 3, grey);
+        model_face(mesh, (const uint32_t[3]){at[1][0], at[1][j], at[1][j + 1]}, 3, grey);
+    }
+}
+
+/* It was 439 planes and 660 sets for a sphere of 1 840 triangles. */
+static void what_was_convex_before_it_was_rounded_is_one_node(void **state) {
+    (void)state;
+    for (unsigned kind = 0; kind < 2; kind++) {
+        mesh_t mesh = {0};
+        mesh_report_t report;
+        sim_error_t error = {""};
+        uint8_t *bytes;
+        size_t size_bytes;
+        const mesh_options_t options = {.tree = true};
+        make_rounded(&mesh, kind);
+        assert_int_equal(mesh_compile(&mesh, &options, &bytes, &size_bytes, &report, &error), 0);
+        assert_int_equal(report.tree.plane_nodes, 0);
+        assert_int_equal(report.tree.convex_nodes, 1);
+        assert_int_equal(report.tree.faces_out, mesh.face_count);
+        free(bytes);
+        mesh_free(&mesh);
+    }
+}
+
+/* A dent of ten steps is none of rounding: the two faces of a folded sheet are not one set. On an exact grid neither is one step.
+ */
+static void a_dent_is_not_rounded_away(void **state) {
+    (void)state;
+    for (int exact = 0; exact < 2; exact++) {
+        mesh_t mesh = {0};
+        mesh_report_t report;
+        sim_error_t error = {""};
+        uint8_t *bytes;
+        size_t size_bytes;
+        const double dent = exact ? 1 : 10, off = exact ? 0 : 0.4;
+        const mesh_options_t options = {.tree = true, .step = 1};
+        const double low[3] = {-1000 + off, -1000, -1000}, high[3] = {1000, 1000 + off, 1000};
+        model_start(&mesh);
+        const uint32_t grey = model_material(&mesh, 128, 128, 128);
+        model_box(&mesh, low, high, grey);
+        uint32_t *corner = mesh.corners + mesh.faces[4].first; /* the top becomes four triangles round a middle that lies deeper */
+        uint32_t rim[4];
+        memcpy(rim, corner, sizeof rim);
+        const uint32_t middle = model_position(&mesh, 0, 1000 - dent, 0);
+        mesh.face_count = 4;
+        model_face(&mesh, (const uint32_t[3]){rim[0], rim[1], middle}, 3, grey);
+        model_face(&mesh, (const uint32_t[3]){rim[1], rim[2], middle}, 3, grey);
+        model_face(&mesh, (const uint32_t[3]){rim[2], rim[3], middle}, 3, grey);
+        model_face(&mesh, (const uint32_t[3]){rim[3], rim[0], middle}, 3, grey);
+        assert_int_equal(mesh_compile(&mesh, &options, &bytes, &size_bytes, &report, &error), 0);
+        assert_true(report.tree.convex_nodes + report.tree.plane_nodes > 1);
+        free(bytes);
+        mesh_free(&mesh);
+    }
+}
+
 /* A list in one plane has an inside on neither side; and a single face is convex. */
 static void a_flat_model_is_one_node(void **state) {
     (void)state;
@@ -457,6 +542,8 @@ static void progress_goes_to_its_end(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(convex_models_are_one_node),
+        cmocka_unit_test(what_was_convex_before_it_was_rounded_is_one_node),
+        cmocka_unit_test(a_dent_is_not_rounded_away),
         cmocka_unit_test(a_flat_model_is_one_node),
         cmocka_unit_test(a_staircase_of_n_steps_has_n_nodes),
         cmocka_unit_test(nested_boxes_are_nodes_within_one_another),

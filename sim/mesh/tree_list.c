@@ -8,6 +8,7 @@
  */
 #include "tree.h"
 
+#include <math.h>
 #include <string.h>
 
 /* A plane is tried on all pieces, but given up as soon as it costs more than the best one. So all can be tried, and are, in models
@@ -75,6 +76,19 @@ bool tree_list_look(tree_list_t *list, const space_t *space, const uint32_t *pie
 
 /* ---- the hull ----------------------------------------------------------------------------------------------- */
 
+/* The side on which a point lies for certain: 0 when it may as well lie in the plane, given what rounding to the grid has done to
+ * both. A model that was convex before it was rounded is convex, then, and what is drawn out of order for that could not have been
+ * told from order in the model as it was. Where the grid holds the model exactly, nothing is given. */
+static int certain_side(const space_t *space, uint32_t plane, uint32_t point) {
+    const exact_plane_t *p = &space->planes[plane];
+    const exact_point_t *q = &space->points[point];
+    const int side = exact_side(p, q);
+    if (side == 0 || space->rounding <= 0) { return side; }
+    const double height = fabs(p->f[0] * q->at[0] + p->f[1] * q->at[1] + p->f[2] * q->at[2] + p->e);
+    const double length = sqrt(p->f[0] * p->f[0] + p->f[1] * p->f[1] + p->f[2] * p->f[2]);
+    return height > length * SPACE_SLACK_MAX || height > length * space_slack(space, plane, q) ? side : 0;
+}
+
 /* A point that showed a plane to be inside is likely to do so again: it moves halfway to the front. */
 static int hull_side(tree_list_t *list, uint32_t plane) {
     uint32_t *witness = list->witnesses[plane];
@@ -83,7 +97,7 @@ static int hull_side(tree_list_t *list, uint32_t plane) {
         known[s] = witness[s] != SPACE_NONE && list->point_round[witness[s]] == list->round;
     }
     for (size_t i = 0; i < list->point_count && !(known[0] && known[1]); i++) {
-        const int side = exact_side(&list->space->planes[plane], &list->space->points[list->points[i]]);
+        const int side = certain_side(list->space, plane, list->points[i]);
         const int s = side < 0;
         if (!side || known[s]) { continue; }
         known[s] = true;

@@ -1,6 +1,8 @@
 /* The faces of a solid as pieces, and what they have in common: planes, points, edges. */
 #include "tree_space.h"
 
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 /* ---- tables ------------------------------------------------------------------------------------------------- */
@@ -56,10 +58,12 @@ static bool plane_equal(const space_t *space, uint32_t item, const void *key) {
 
 static uint32_t enter_plane(space_t *space, const exact_plane_t *plane) {
     if (space->plane_count >= SPACE_NONE - 1 ||
-        !mesh_reserve(&space->planes, &space->plane_capacity, space->plane_count + 1, sizeof *space->planes)) {
+        !mesh_reserve(&space->planes, &space->plane_capacity, space->plane_count + 1, sizeof *space->planes) ||
+        !mesh_reserve(&space->slacks, &space->slack_capacity, space->plane_count + 1, sizeof *space->slacks)) {
         return SPACE_NONE;
     }
     space->planes[space->plane_count] = *plane;
+    space->slacks[space->plane_count] = (space_slack_t){.tilt = DBL_MAX};
     uint64_t hash = 0;
     for (int k = 0; k < 3; k++) {
         hash = mix(hash, (uint64_t)plane->n[k]);
@@ -132,6 +136,28 @@ static uint32_t new_piece(space_t *space, const space_corner_t *corners, size_t 
     return (uint32_t)space->piece_count++;
 }
 
+static void note_slack(space_t *space, uint32_t plane, const uint32_t *corners, size_t count, const int64_t normal[3]) {
+    const solid_vertex_t *vertices = space->solid->vertices;
+    space_slack_t slack = {.tilt = 0};
+    for (size_t i = 0; i < count; i++) {
+        const int16_t *p = vertices[corners[i]].position, *q = vertices[corners[(i + 1) % count]].position;
+        slack.tilt += hypot(hypot(q[0] - p[0], q[1] - p[1]), q[2] - p[2]);
+        for (int k = 0; k < 3; k++) {
+            slack.centre[k] += (double)p[k] / (double)count;
+        }
+    }
+    slack.tilt /= hypot(hypot((double)normal[0], (double)normal[1]), (double)normal[2]);
+    if (slack.tilt < space->slacks[plane].tilt) { space->slacks[plane] = slack; }
+}
+
+double space_slack(const space_t *space, uint32_t plane, const exact_point_t *point) {
+    const space_slack_t *slack = &space->slacks[plane];
+    if (space->rounding <= 0) { return 0; }
+    const double r =
+        hypot(hypot(point->at[0] - slack->centre[0], point->at[1] - slack->centre[1]), point->at[2] - slack->centre[2]);
+    return fmin(space->rounding * (2 + r * slack->tilt), SPACE_SLACK_MAX);
+}
+
 /* corners: vertices of the solid. */
 static bool add_face(space_t *space, const solid_face_t *from, const uint32_t *corners, size_t count, const int64_t normal[3]) {
     const solid_vertex_t *vertices = space->solid->vertices;
@@ -140,6 +166,7 @@ static bool add_face(space_t *space, const solid_face_t *from, const uint32_t *c
     space_face_t face = {.material = from->material, .source = from->source, .even = true};
     face.turned = exact_plane_make(&plane, normal, vertices[corners[0]].position);
     face.plane = enter_plane(space, &plane);
+    if (face.plane != SPACE_NONE) { note_slack(space, face.plane, corners, count, normal); }
     if (face.plane == SPACE_NONE || count > MESH_CORNERS_MAX ||
         !mesh_reserve(&space->faces, &space->face_capacity, space->face_count + 1, sizeof *space->faces)) {
         return false;
@@ -196,7 +223,7 @@ static bool add_triangles(space_t *space, const solid_face_t *face) {
 }
 
 bool space_open(space_t *space, const solid_t *solid) {
-    *space = (space_t){.solid = solid};
+    *space = (space_t){.solid = solid, .rounding = solid->error / solid->step_value};
     space->places = mesh_array(solid->place_count, sizeof *space->places);
     if (!space->places || !mesh_reserve(&space->points, &space->point_capacity, solid->place_count, sizeof *space->points)) {
         return false;

@@ -19,6 +19,13 @@ typedef struct space_table {
     size_t capacity, count; /* capacity: 0 or a power of two */
 } space_table_t;
 
+/* How far rounding to the grid may have moved a plane, at a distance of r steps from `centre`: rounding * (2 + r * tilt). A face
+ * whose corners each moved by `rounding` turns by 1 / height for each of its heights, which add up to its outline over twice its
+ * area. */
+typedef struct space_slack {
+    double centre[3], tilt;
+} space_slack_t;
+
 typedef struct space_line {
     bool edge;
     uint32_t of[2];                /* points of an edge; planes of a cut: the face's and the cutting one */
@@ -47,6 +54,8 @@ typedef struct space_piece {
 
 typedef struct space {
     exact_plane_t *planes;
+    space_slack_t *slacks; /* of each plane; of the face with the least tilt in it */
+    double rounding;       /* the largest distance of a corner from its place in the model, in steps; 0 when the grid is exact */
     exact_point_t *points; /* those of the solid by the number of their place, then those made */
     space_line_t *lines;
     space_mark_t *marks;
@@ -54,7 +63,8 @@ typedef struct space {
     space_face_t *faces;
     space_piece_t *pieces;
     size_t plane_count, point_count, line_count, mark_count, corner_count, face_count, piece_count;
-    size_t plane_capacity, point_capacity, line_capacity, mark_capacity, corner_capacity, face_capacity, piece_capacity;
+    size_t plane_capacity, slack_capacity, point_capacity, line_capacity, mark_capacity, corner_capacity, face_capacity,
+        piece_capacity;
     uint32_t *places; /* of each place: a vertex of the solid there */
     const solid_t *solid;
     space_table_t plane_table, point_table, edge_table;
@@ -73,6 +83,11 @@ void space_close(space_t *space);
 
 /* Cuts a piece that has corners strictly on both sides: parts[0] lies on the plus side. False when out of memory. */
 bool space_cut(space_t *space, uint32_t piece, uint32_t plane, uint32_t parts[2]);
+
+#define SPACE_SLACK_MAX 64.0 /* a sliver may tilt by any angle, but more than this is believed */
+
+/* How far from the plane, in steps, a point may seem to lie and yet lie in it, for all that the grid tells. */
+double space_slack(const space_t *space, uint32_t plane, const exact_point_t *point);
 
 /* After the last cut: puts the points of each line in order. False without memory. */
 bool space_sort_lines(space_t *space);
