@@ -274,6 +274,32 @@ static const char *json_value(const char *at, int depth) {
     return json_number(at);
 }
 
+static void the_ways_of_warnock_draw_alike_and_their_windows_are_in_the_report(void **state) {
+    static const char *const ways[] = {"", " --warnock quarters", " --warnock single,box", " --warnock sorted,pixels"};
+    double windows[4], pixels[4];
+    (void)state;
+    char *expected = cli_good("render @/torus.obj --hash");
+    for (unsigned i = 0; i < CHECK_COUNT(ways); i++) {
+        char line[256];
+        (void)snprintf(line, sizeof line, "render @/torus.obj --method warnock --hash --report @/report.json%s", ways[i]);
+        char *out = cli_good(line), *text = command_read(cli_path("report.json"), NULL);
+        assert_non_null(text);
+        if (strncmp(out, expected, strlen(expected)) != 0) { fail_msg("%s: %s", line, out); }
+        const char *end = json_value(json_blank(text), 8);
+        if (!end || *json_blank(end) != '\0') { fail_msg("no JSON:\n%s", text); }
+        windows[i] = (double)cli_number_after(text, "\"windows\": ");
+        pixels[i] = (double)cli_number_after(text, "\"windows_pixels\": ");
+        assert_true(windows[i] > pixels[i] && pixels[i] > 0);
+        assert_in_range(cli_number_after(text, "\"windows_depth\": "), 1, 20);
+        assert_in_range(cli_number_after(text, "\"windows_waiting\": "), 2, 31);
+        free(text);
+        free(out);
+    }
+    assert_true(windows[2] < windows[1] && pixels[2] < pixels[1]);
+    free(expected);
+    (void)unlink(cli_path("report.json"));
+}
+
 static void the_report_is_json_with_every_figure_of_every_frame(void **state) {
     static const char *const fields[] = {"frame",
                                          "hash",
@@ -369,6 +395,7 @@ int main(void) {
         cmocka_unit_test(ids_of_triangles_are_the_numbers_of_their_lines),
         cmocka_unit_test(picking_tells_face_and_place),
         cmocka_unit_test(the_report_is_json_with_every_figure_of_every_frame),
+        cmocka_unit_test(the_ways_of_warnock_draw_alike_and_their_windows_are_in_the_report),
         cmocka_unit_test(a_faster_clock_shortens_the_time_on_the_wire),
     };
     return cmocka_run_group_tests_name("cli_render", tests, cli_set_up, cli_tear_down);

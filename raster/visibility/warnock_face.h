@@ -75,8 +75,11 @@ TUILE_INLINE window_relation_t warnock_face_relation(const tuile_t *t, const war
                                                      bool brief) {
     const window_t *box = &face->box;
     if (window_misses(window, box)) { return WINDOW_DISJOINT; }
-    if (window_holds(window, box) && !window_holds(box, window)) { return WINDOW_INTERSECTING; }
-    if (brief && box->right - box->left < window->right - window->left && box->bottom - box->top < window->bottom - window->top) {
+    if (brief) {
+        if (box->right - box->left < window->right - window->left && box->bottom - box->top < window->bottom - window->top) {
+            return WINDOW_INTERSECTING;
+        }
+    } else if (window_holds(window, box) && !window_holds(box, window)) {
         return WINDOW_INTERSECTING;
     }
     if (TUILE_LIKELY(face->is_triangle)) { return window_triangle(face->sides, window); }
