@@ -45,7 +45,7 @@ typedef struct subdivision {
     waiting_t stack[STACK_WINDOWS];
 } subdivision_t;
 
-static void decided(const subdivision_t *s, const window_t *w, tuile_why_t why) {
+TUILE_INLINE void decided(const subdivision_t *s, const window_t *w, tuile_why_t why) {
     const tuile_trace_t *trace = s->t->config.trace;
     if (TUILE_UNLIKELY(trace != NULL) && trace->window) {
         trace->window(trace->context, (unsigned)w->left, (unsigned)w->top, (unsigned)w->right, (unsigned)w->bottom, why);
@@ -67,9 +67,15 @@ TUILE_INLINE uint32_t nearness(const subdivision_t *s, uint32_t number, int32_t 
 
 TUILE_INLINE uint32_t tie_turn(const subdivision_t *s) { return s->t->config.tie == TUILE_TIE_LAST ? 0 : 0xffffu; }
 
-static void pixel_decided(const subdivision_t *s, int32_t x, int32_t y) {
-    s->t->stats.windows_pixels++;
-    decided(s, &(window_t){(int16_t)x, (int16_t)y, (int16_t)(x + 1), (int16_t)(y + 1)}, TUILE_WHY_PIXEL);
+/* The pixels of a window, each of which is a window of its own. */
+static void pixels_decided(const subdivision_t *s, const window_t *w) {
+    s->t->stats.windows_pixels += (uint32_t)window_area(w);
+    if (TUILE_LIKELY(s->t->config.trace == NULL)) { return; }
+    for (int16_t y = w->top; y < w->bottom; y++) {
+        for (int16_t x = w->left; x < w->right; x++) {
+            decided(s, &(window_t){x, y, (int16_t)(x + 1), (int16_t)(y + 1)}, TUILE_WHY_PIXEL);
+        }
+    }
 }
 
 /* A window of one pixel: the nearest of the faces that cover it. */
@@ -86,7 +92,7 @@ static void decide_pixel(const subdivision_t *s, const waiting_t *p) {
         nearest = key > nearest ? key : nearest;
     }
     if (nearest) { warnock_face_pixel(s->t, &s->faces[(nearest ^ turn) & 0xffffu], x, y); }
-    pixel_decided(s, x, y);
+    pixels_decided(s, &p->window);
 }
 
 /* ---- windows ---- */
@@ -223,14 +229,7 @@ static void decide_pixels(const subdivision_t *s, const waiting_t *p, front_t fr
         if (++x == w->right) { x = w->left, y++; }
     }
     s->t->stats.windows += (uint32_t)window_area(w);
-    if (TUILE_UNLIKELY(s->t->config.trace != NULL)) {
-        for (y = w->top; y < w->bottom; y++) {
-            for (x = w->left; x < w->right; x++) {
-                decided(s, &(window_t){(int16_t)x, (int16_t)y, (int16_t)(x + 1), (int16_t)(y + 1)}, TUILE_WHY_PIXEL);
-            }
-        }
-    }
-    s->t->stats.windows_pixels += (uint32_t)window_area(w);
+    pixels_decided(s, w);
 }
 
 /* ---- division ---- */
