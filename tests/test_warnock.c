@@ -1,4 +1,5 @@
 /* Warnock's subdivision: the picture of the z-buffer byte for byte, windows counted on paper, the bounds of stack and memory. */
+#include "../raster/visibility/warnock_face.h"
 #include "reference/scene_generator.h"
 #include "support/check.h"
 #include "support/frame.h"
@@ -106,6 +107,134 @@ static void models_equal_the_z_buffers(void **state) {
     stage_close(&stage);
 }
 
+/* ---- depth ---- */
+
+/* Faces of any plane and any range: what `hides` says holds at every pixel, with the depths that are compared. */
+static void a_face_that_hides_another_wins_every_pixel(void **state) {
+    random_source_t random = random_seed(7);
+    unsigned hidden = 0, clamped = 0;
+    (void)state;
+    for (unsigned i = 0; i < CHECK_ROUNDS(400000u); i++) {
+        warnock_face_t faces[2];
+        const int32_t left = random_between(&random, 0, 40), top = random_between(&random, 0, 40);
+        const window_t window = {(int16_t)left, (int16_t)top, (int16_t)(left + random_between(&random, 1, 6)),
+                                 (int16_t)(top + random_between(&random, 1, 6))};
+        const int32_t slope = random_one_in(&random, 2) ? 20000 : 400000;
+        for (unsigned k = 0; k < 2; k++) {
+            warnock_face_t *face = &faces[k];
+            memset(face, 0, sizeof *face);
+            face->is_triangle = random_one_in(&random, 2);
+            face->dx = random_between(&random, -slope, slope);
+            face->dy = random_between(&random, -slope, slope);
+            const int64_t middle = 1000 * 65536 + random_between(&random, -4 * slope, 4 * slope);
+            face->z = middle - (int64_t)face->dx * (left + 2) - (int64_t)face->dy * (top + 2);
+            face->low = (uint32_t)(middle - random_between(&random, 0, 6 * slope));
+            face->high = (uint32_t)(middle + random_between(&random, 0, 6 * slope));
+        }
+        const bool first = random_one_in(&random, 2);
+        if (!warnock_face_hides(&faces[0], &faces[1], &window, first)) { continue; }
+        hidden++;
+        for (int32_t y = window.top; y < window.bottom; y++) {
+            for (int32_t x = window.left; x < window.right; x++) {
+                uint32_t depth[2];
+                bool covers = true;
+                for (unsigned k = 0; k < 2; k++) {
+                    const warnock_face_t *face = &faces[k];
+                    int64_t z = face->z + (int64_t)face->dx * x + (int64_t)face->dy * y;
+                    const bool beyond = z < face->low || z > face->high;
+                    covers &= !(beyond && face->is_triangle); /* the pixel is none of a triangle's */
+                    clamped += beyond && !face->is_triangle;
+                    z = z < face->low ? face->low : z > face->high ? face->high : z;
+                    depth[k] = (uint32_t)(z >> 16);
+                }
+                if (covers && (first ? depth[0] < depth[1] : depth[0] <= depth[1])) { fail_msg("round %u, pixel %d,%d", i, x, y); }
+            }
+        }
+    }
+    assert_true(hidden > CHECK_ROUNDS(400000u) / 8 && clamped > 1000);
+}
+
+static void parallel_and_crossing_planes_hide_as_they_should(void **state) {
+    const window_t window = {10, 10, 14, 14};
+    warnock_face_t a = {.low = 100 << 16, .high = 9000 << 16, .z = 1000 << 16, .dx = 5 << 16, .is_triangle = true}, b = a;
+    (void)state;
+    assert_true(warnock_face_hides(&a, &b, &window, true)); /* in one plane: the first wins */
+    assert_false(warnock_face_hides(&a, &b, &window, false));
+    b.z -= 0xffff;
+    assert_false(warnock_face_hides(&a, &b, &window, false));
+    b.z -= 1; /* a whole step behind */
+    assert_true(warnock_face_hides(&a, &b, &window, false));
+    b = a;
+    b.dx = -b.dx;
+    assert_false(warnock_face_hides(&a, &b, &(window_t){0, 0, 1, 1}, false));
+    assert_true(warnock_face_hides(&a, &b, &(window_t){1, 0, 9, 1}, false)); /* they cross at column 0 */
+    assert_false(warnock_face_hides(&b, &a, &(window_t){1, 0, 9, 1}, true));
+    /* Its plane is in front of a's, but the face ends before it gets there. */
+    b.z = 5000 << 16;
+    b.low = 200 << 16;
+    b.high = 900 << 16;
+    assert_true(warnock_face_hides(&a, &b, &window, false));
+}
+
+/* Depths at covered pixels of random triangles: within the range that is told, and now and then beyond that of the corners. */
+static void a_triangles_pixels_lie_in_its_range(void **state) {
+    static uint64_t arena[8];
+    static tuile_t t;
+    random_source_t random = random_seed(9);
+    unsigned beyond = 0;
+    (void)state;
+    memset(&t, 0, sizeof t);
+    t.vertices = (vertex_t *)(void *)arena;
+    t.arena_end = (uint8_t *)(arena + 8);
+    t.record_bytes = sizeof(record_t);
+    t.span_kind = SPAN_GOURAUD;
+    record_t *record = frame_record(&t, 0);
+    for (unsigned i = 0; i < CHECK_ROUNDS(100000u); i++) {
+        const int32_t size = random_one_in(&random, 3) ? 4000 : 500;
+        const uint32_t base = (uint32_t)random_between(&random, 3000, 60000) * 256u, spread = size < 512 ? 262142u : 1000000u;
+        vertex_t *v = t.vertices;
+        uint32_t low = UINT32_MAX, high = 0;
+        for (unsigned k = 0; k < 3; k++) {
+            const uint32_t depth = base + (uint32_t)random_between(&random, 0, (int32_t)(spread / 2));
+            const int32_t x = 16 * random_between(&random, 0, size / 16) + 8, y = 16 * random_between(&random, 0, size / 16) + 8;
+            v[k] = (vertex_t){(int16_t)x, (int16_t)y, depth << 8 | 99}; /* a centre: the range is reached */
+            low = depth < low ? depth : low;
+            high = depth > high ? depth : high;
+        }
+        const int32_t area = (v[2].x - v[0].x) * (v[1].y - v[0].y) - (v[1].x - v[0].x) * (v[2].y - v[0].y);
+        if (area == 0) { continue; }
+        const unsigned second = area > 0 ? 1 : 2;
+        unsigned top = 0;
+        for (unsigned k = 1; k < 3; k++) {
+            top = v[k].y < v[top].y ? k : top;
+        }
+        const unsigned order[3] = {0, second, 3 - second};
+        unsigned at = 0;
+        while (order[at] != top) {
+            at++;
+        }
+        *record = (record_t){
+            0, (uint16_t)top, (int8_t)((int)order[(at + 1) % 3] - (int)top), (int8_t)((int)order[(at + 2) % 3] - (int)top), 0, 0};
+        warnock_face_t face;
+        const window_t box = {0, 0, 256, 256};
+        assert_true(warnock_face_start(&t, &face, 0, &box));
+        if (face.is_steep) { continue; }
+        for (unsigned n = 0; n < 12; n++) {
+            const int32_t x = v[n % 3].x / 16 + (n < 3 ? 0 : random_between(&random, -2, 2)),
+                          y = v[n % 3].y / 16 + (n < 3 ? 0 : random_between(&random, -2, 2));
+            if (window_triangle(face.sides, &(window_t){(int16_t)x, (int16_t)y, (int16_t)(x + 1), (int16_t)(y + 1)}) !=
+                WINDOW_SURROUNDING) {
+                continue;
+            }
+            const int64_t z = face.z + (int64_t)face.dx * x + (int64_t)face.dy * y;
+            assert_true(z >= face.low && z <= face.high);
+            beyond += z < (int64_t)(low << 8) + 0x8000 || z > (int64_t)(high << 8) + 0x8000;
+        }
+        assert_true(face.low + 0x8000u >= low << 8 && face.high <= (high << 8) + 0x10000u); /* and tells not much more */
+    }
+    assert_true(beyond > 0);
+}
+
 /* ---- memory ---- */
 
 static void less_memory_gives_the_same_picture_or_says_what_would_do(void **state) {
@@ -139,16 +268,13 @@ static void less_memory_gives_the_same_picture_or_says_what_would_do(void **stat
                 /* What was wanted for this tile is enough for it, in a pass of its own. */
                 block_t larger;
                 tuile_t *again;
-                const uint32_t at = renderer ? (uint32_t)tuile_config(renderer)->tile_first : 0;
-                uint32_t index = at;
                 tuile_stats_t so_far;
                 const size_t wanted = tuile_wanted(renderer);
                 assert_int_equal(tuile_end(renderer, &so_far), TUILE_OK);
-                index += so_far.tiles;
                 block_open(&larger, wanted);
                 assert_int_equal(tuile_init(&again, &config, larger.bytes, wanted, NULL), TUILE_OK);
                 assert_int_equal(tuile_begin(again, &stage.view.scene), TUILE_OK);
-                assert_int_equal(tuile_seek(again, index), TUILE_OK);
+                assert_int_equal(tuile_seek(again, so_far.tiles), TUILE_OK);
                 assert_int_equal(tuile_next(again, &tile), 1);
                 block_close(&larger);
             } else {
@@ -195,6 +321,48 @@ static void the_memory_of_a_frame_is_the_one_stated(void **state) {
     config.method = TUILE_WARNOCK;
     assert_int_equal(depth - frame_least_bytes(&config), 64 * 64 * 2);
     stage_close(&stage);
+}
+
+/* One tile, one pass: eight bytes less than the peak are too few. */
+static void eight_bytes_less_than_the_peak_are_too_few(void **state) {
+    stage_t stage;
+    tuile_stats_t stats;
+    (void)state;
+    stage_open_torus(&stage, 64, 64);
+    const tuile_config_t config = {.width = 64,
+                                   .height = 64,
+                                   .tile_height = 64,
+                                   .method = TUILE_WARNOCK,
+                                   .cluster_vertices = stage.compiled.model.cluster_vertices_max};
+    free(frame_draw(&stage.view.scene, &config, 1 << 20, &stats));
+    const size_t peak = stats.peak_bytes;
+    free(frame_draw(&stage.view.scene, &config, peak, &stats));
+    assert_int_equal(stats.peak_bytes, peak);
+    block_t block;
+    tuile_t *renderer;
+    tuile_tile_t tile;
+    block_open(&block, peak - 8);
+    assert_int_equal(tuile_init(&renderer, &config, block.bytes, peak - 8, NULL), TUILE_OK);
+    assert_int_equal(tuile_begin(renderer, &stage.view.scene), TUILE_OK);
+    assert_int_equal(tuile_next(renderer, &tile), TUILE_ERROR_MEMORY);
+    assert_true(tuile_wanted(renderer) >= peak);
+    block_close(&block);
+    stage_close(&stage);
+}
+
+/* Rows 3 ... 19 of 64 in strips of 8: three of them set it up, and no strip below does. */
+static void a_face_is_set_up_in_the_tiles_that_it_reaches(void **state) {
+    test_scene_t scene;
+    tuile_stats_t stats;
+    (void)state;
+    test_scene_open(&scene, "screen 64 64\ncamera ortho\nsample 1/2 1/2\npoly 1 1,3,5 30,3,5 30,20,5\n");
+    tuile_config_t config = {.method = TUILE_WARNOCK, .tile_height = 8, .warnock = TUILE_WARNOCK_QUARTERS};
+    free(test_scene_ids(&scene, &config, 1 << 20, &stats));
+    assert_int_equal(stats.faces_setup, 3);
+    config.tile_width = 16; /* columns 1 ... 29: two of four */
+    free(test_scene_ids(&scene, &config, 1 << 20, &stats));
+    assert_int_equal(stats.faces_setup, 6);
+    test_scene_close(&scene);
 }
 
 /* ---- counted on paper ---- */
@@ -353,8 +521,13 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_scenes_equal_the_z_buffers),
         cmocka_unit_test(models_equal_the_z_buffers),
+        cmocka_unit_test(a_face_that_hides_another_wins_every_pixel),
+        cmocka_unit_test(parallel_and_crossing_planes_hide_as_they_should),
+        cmocka_unit_test(a_triangles_pixels_lie_in_its_range),
         cmocka_unit_test(less_memory_gives_the_same_picture_or_says_what_would_do),
         cmocka_unit_test(the_memory_of_a_frame_is_the_one_stated),
+        cmocka_unit_test(eight_bytes_less_than_the_peak_are_too_few),
+        cmocka_unit_test(a_face_is_set_up_in_the_tiles_that_it_reaches),
         cmocka_unit_test(windows_are_counted_as_on_paper),
         cmocka_unit_test(each_pixel_of_random_scenes_is_decided_once),
         cmocka_unit_test(the_stack_is_filled_to_its_bound),
