@@ -125,7 +125,7 @@ static front_t sort_out(const subdivision_t *s, waiting_t *p) {
     const window_t w = p->window;
     const bool brief = s->variant & TUILE_WARNOCK_PIXELS;
     uint16_t *order = s->order;
-    uint32_t filling = p->filling, end = p->filling;
+    uint32_t filling = p->filling, end = filling;
     front_t front = {s->count, 0, true};
     for (uint32_t k = 0; k < filling; k++) {
         front_take(s, &front, order[k], &w);
@@ -150,9 +150,8 @@ static front_t sort_out(const subdivision_t *s, waiting_t *p) {
         }
         for (uint32_t k = p->filling; k < filling; k++) {
             if (order[k] == front.face) { continue; }
-            if (hides(s, front.face, order[k], &w)) { /* over the last that surrounds, then over the last of all */
-                swap(&order[--filling], &order[k--]);
-                swap(&order[--end], &order[filling]);
+            if (hides(s, front.face, order[k], &w)) {
+                swap(&order[--filling], &order[k--]); /* to those that the next loop drops */
             } else {
                 front.alone = false;
             }

@@ -93,13 +93,9 @@ bool warnock_face_hides(const warnock_face_t *a, const warnock_face_t *b, const 
 
 /* ---- into the tile ---- */
 
-static size_t pixel_at(const tuile_t *t, int32_t x, int32_t y) {
-    return (size_t)((y - t->tile.top) * t->tile.stride_px + (x - t->tile.left));
-}
-
 void warnock_face_fill(tuile_t *t, const warnock_face_t *face, const window_t *window) {
     const int32_t count = window->right - window->left;
-    size_t at = pixel_at(t, window->left, window->top);
+    size_t at = warnock_pixel_at(t, window->left, window->top);
     if (t->span_kind == SPAN_GOURAUD && face->is_triangle) {
         const light_plane_t *l = &face->light;
         const uint16_t *ramp = frame_ramp(t, face->value);
@@ -125,7 +121,7 @@ void warnock_face_bits(tuile_t *t, const warnock_face_t *face, const window_t *w
     const uint16_t *ramp = gouraud ? frame_ramp(t, face->value) : NULL;
     const uint32_t value = face->value;
     uint32_t light = gouraud ? warnock_face_light(face, window->left, window->top) : 0;
-    uint8_t *row = (uint8_t *)t->tile.colour + pixel_at(t, window->left, window->top) * (ids ? 4u : 2u);
+    uint8_t *row = (uint8_t *)t->tile.colour + warnock_pixel_at(t, window->left, window->top) * (ids ? 4u : 2u);
     while (bits) {
         uint32_t now = bits & row_bits, shade = light;
         uint16_t *colour = (uint16_t *)(void *)row;

@@ -107,9 +107,14 @@ TUILE_INLINE uint32_t warnock_face_light(const warnock_face_t *face, int32_t x, 
     return face->light.light + face->light.dx * (uint32_t)x + face->light.dy * (uint32_t)y;
 }
 
+/* Where a pixel of the window lies in the tile. */
+TUILE_INLINE size_t warnock_pixel_at(const tuile_t *t, int32_t x, int32_t y) {
+    return (size_t)(y - t->tile.top) * (size_t)t->tile.stride_px + (size_t)(x - t->tile.left);
+}
+
 /* The face into one pixel. */
 TUILE_INLINE void warnock_face_pixel(tuile_t *t, const warnock_face_t *face, int32_t x, int32_t y) {
-    const size_t at = (size_t)((y - t->tile.top) * t->tile.stride_px + (x - t->tile.left));
+    const size_t at = warnock_pixel_at(t, x, y);
     if (t->span_kind == SPAN_GOURAUD && face->is_triangle) {
         ((uint16_t *)t->tile.colour)[at] = frame_ramp(t, face->value)[warnock_face_light(face, x, y) >> 26];
     } else if (t->span_kind == SPAN_IDS) {
