@@ -27,6 +27,7 @@ typedef struct warnock_face {
     bool is_triangle, is_steep;
     window_side_t sides[3]; /* of a triangle */
 } warnock_face_t;
+_Static_assert(sizeof(warnock_face_t) <= 88, "the memory stated above and in warnock.c");
 
 /* False when the face covers nothing. box: of the face. */
 bool warnock_face_start(tuile_t *t, warnock_face_t *face, uint32_t number, const window_t *box);
