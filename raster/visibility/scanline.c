@@ -111,7 +111,7 @@ static void face_end(sweep_t *sweep, uint32_t at) {
 }
 
 /* Links the face of a record in at its first row, when it covers any. */
-static int face_start(tuile_t *t, sweep_t *sweep, uint32_t *link, uint32_t number, int32_t row) {
+static TUILE_NOINLINE int face_start(tuile_t *t, sweep_t *sweep, uint32_t *link, uint32_t number, int32_t row) {
     const record_t *record = frame_record(t, number);
     uint8_t three[3];
     if (t->tile_columns > 1 && !in_columns(t, record)) { return FRAME_OK; }
@@ -133,10 +133,8 @@ static int face_start(tuile_t *t, sweep_t *sweep, uint32_t *link, uint32_t numbe
     return FRAME_OK;
 }
 
-/* One row down, to `row`. False: the pool is full. */
-TUILE_INLINE bool face_step(const tuile_t *t, sweep_t *sweep, face_t *face, int32_t row) {
-    active_step(&sweep->pool, &face->edges, &face->plane, row);
-    if (TUILE_LIKELY(row != face->edges.row_next)) { return true; }
+/* A side begins or ends on `row`. False: the pool is full. */
+static TUILE_NOINLINE bool face_change(const tuile_t *t, sweep_t *sweep, face_t *face, int32_t row) {
     uint8_t three[3];
     const polygon_ring_t ring = face_ring(t, frame_record(t, face->record), three);
     return active_change(&sweep->pool, &face->edges, &ring, &face->plane, row);
@@ -150,35 +148,34 @@ typedef struct line {
     int32_t left, right;
 } line_t;
 
-TUILE_INLINE void span_draw(tuile_t *t, const line_t *line, const face_t *face, int32_t from, int32_t count, uint64_t z,
-                            bool last) {
+/* kind and last are constants in the loops that most frames are drawn by. */
+TUILE_INLINE void span_draw(const line_t *line, const face_t *face, int32_t from, int32_t count, uint32_t z, uint32_t dx,
+                            span_kind_t kind, bool last) {
     const int32_t at = from - line->left;
-    uint16_t *depth = line->depth + at, *colour = (uint16_t *)(void *)line->colour + at;
-    if (t->span_kind == SPAN_GOURAUD && !face->polygon) {
-        span_gouraud(depth, colour, count, z, face->plane.dx, frame_ramp(t, face->value), last);
-        return;
-    }
-    const unsigned shift = face->polygon ? 0 : 32;
-    const uint32_t z32 = (uint32_t)(z >> shift), dx = (uint32_t)(face->plane.dx >> shift);
-    if (t->span_kind == SPAN_IDS) {
-        span_ids(depth, (uint32_t *)(void *)line->colour + at, count, z32, dx, face->value, last);
+    if (kind == SPAN_IDS) {
+        span_ids(line->depth + at, (uint32_t *)(void *)line->colour + at, count, z, dx, face->value, last);
     } else {
-        span_flat(depth, colour, count, z32, dx, (uint16_t)face->value, last);
+        span_flat(line->depth + at, (uint16_t *)(void *)line->colour + at, count, z, dx, (uint16_t)face->value, last);
     }
 }
 
-/* Of a polygon whose plane leaves the range of its corners somewhere: pixel by pixel. */
-static TUILE_NOINLINE void span_clamped(tuile_t *t, const line_t *line, const face_t *face, int32_t from, int32_t to, int64_t z,
-                                        bool last) {
-    for (; from < to; from++, z += (int64_t)face->plane.dx) {
-        const uint32_t held = z < face->low ? face->low : z > face->high ? face->high : (uint32_t)z;
-        span_draw(t, line, face, from, 1, held, last);
+/* Where the plane leaves the range of the polygon's corners, pixel by pixel. */
+static TUILE_NOINLINE void span_polygon(const line_t *line, const face_t *face, int32_t from, int32_t to, int64_t z,
+                                        span_kind_t kind, bool last) {
+    const int64_t low = face->low, high = face->high, dx = (int64_t)face->plane.dx, end = z + dx * (to - from - 1);
+    if (z >= low && z <= high && end >= low && end <= high) {
+        span_draw(line, face, from, to - from, (uint32_t)z, (uint32_t)dx, kind, last);
+        return;
+    }
+    for (; from < to; from++, z += dx) {
+        span_draw(line, face, from, 1, (uint32_t)(z < low ? low : z > high ? high : z), 0, kind, last);
     }
 }
 
 /* The document's "traiter les segments intersectés": entries two by two, those that have ended passed over. On every row an even
  * number is left. */
-TUILE_INLINE void face_draw(tuile_t *t, sweep_t *sweep, const line_t *line, const face_t *face, int32_t row, bool last) {
+TUILE_INLINE void face_draw(tuile_t *t, sweep_t *sweep, const line_t *line, const face_t *face, int32_t row, span_kind_t kind,
+                            bool last) {
     for (uint32_t at = face->edges.first; at;) {
         const active_edge_t *a = active_at(&sweep->pool, at), *b;
         at = a->next;
@@ -196,48 +193,64 @@ TUILE_INLINE void face_draw(tuile_t *t, sweep_t *sweep, const line_t *line, cons
         if (to > line->right) { to = line->right; }
         if (from >= to) { continue; }
         if (face->polygon) {
-            const int64_t begin = (int64_t)z, end = begin + (int64_t)face->plane.dx * (to - from - 1);
-            if (begin < face->low || begin > face->high || end < face->low || end > face->high) {
-                span_clamped(t, line, face, from, to, begin, last);
-                continue;
-            }
+            span_polygon(line, face, from, to, (int64_t)z, kind, last);
+        } else if (kind == SPAN_GOURAUD) {
+            const int32_t first = from - line->left;
+            span_gouraud(line->depth + first, (uint16_t *)(void *)line->colour + first, to - from, z, face->plane.dx,
+                         frame_ramp(t, face->value), last);
+        } else {
+            span_draw(line, face, from, to - from, (uint32_t)(z >> 32), (uint32_t)(face->plane.dx >> 32), kind, last);
         }
-        span_draw(t, line, face, from, to - from, z, last);
     }
 }
 
 /* ---- the sweep ---- */
 
 /* One row: newcomers merged in, all faces drawn and moved on to the next row. */
-static int line_draw(tuile_t *t, sweep_t *sweep, const line_t *line, int32_t row) {
-    const bool last = t->config.tie == TUILE_TIE_LAST;
-    uint16_t newcomer = buckets(t)[row - t->tile.top];
-    uint32_t *link = &sweep->faces, active = 0;
-    if (newcomer == RECORD_NONE && sweep->faces == 0) { return FRAME_OK; }
-    frame_fill_words(line->depth, 0, sizeof(uint16_t) * (size_t)t->tile.stride_px);
+TUILE_INLINE int line_draw(tuile_t *t, sweep_t *sweep, const line_t *line, int32_t row, span_kind_t kind, bool last) {
+    uint32_t newcomer = buckets(t)[row - t->tile.top], *link = &sweep->faces, active = 0;
     for (;;) {
-        if (newcomer != RECORD_NONE && (*link == 0 || newcomer - 1u < face_at(sweep, *link)->record)) {
-            const uint32_t number = newcomer - 1u;
+        const uint32_t at = *link;
+        face_t *face = face_at(sweep, at);
+        if (TUILE_UNLIKELY(newcomer != RECORD_NONE) && (at == 0 || newcomer - 1 < face->record)) {
+            const uint32_t number = newcomer - 1;
             newcomer = frame_record(t, number)->next;
             const int result = face_start(t, sweep, link, number, row);
             if (result != FRAME_OK) { return result; }
             continue;
         }
-        if (*link == 0) { break; }
-        const uint32_t at = *link;
-        face_t *face = face_at(sweep, at);
-        last ? face_draw(t, sweep, line, face, row, true) : face_draw(t, sweep, line, face, row, false);
+        if (at == 0) { break; }
+        face_draw(t, sweep, line, face, row, kind, last);
         active++;
-        if (row + 1 >= face->edges.row_end) {
+        if (row + 1 == face->edges.row_end) {
             *link = face->next;
             face_end(sweep, at);
-        } else {
-            if (!face_step(t, sweep, face, row + 1)) { return FRAME_FULL; }
-            link = &face->next;
+            continue;
         }
+        active_step(&sweep->pool, &face->edges, &face->plane, row + 1);
+        if (TUILE_UNLIKELY(row + 1 == face->edges.row_next) && !face_change(t, sweep, face, row + 1)) { return FRAME_FULL; }
+        link = &face->next;
     }
     if (active > t->stats.active_max) { t->stats.active_max = active; }
     return FRAME_OK;
+}
+
+TUILE_INLINE int lines_draw(tuile_t *t, sweep_t *sweep, span_kind_t kind, bool last) {
+    line_t line = {t->tile_memory, t->tile.colour, t->tile.left, t->tile.right};
+    const size_t width = (size_t)t->tile.stride_px, stride = width * TUILE_FORMAT_BYTES(t->config.format);
+    for (int32_t row = t->tile.top; row < t->tile.bottom; row++, line.colour += stride) {
+        if (buckets(t)[row - t->tile.top] == RECORD_NONE && sweep->faces == 0) { continue; }
+        frame_fill_words(line.depth, 0, sizeof(uint16_t) * width);
+        const int result = line_draw(t, sweep, &line, row, kind, last);
+        if (result != FRAME_OK) { return result; }
+    }
+    return FRAME_OK;
+}
+
+static TUILE_NOINLINE int lines_gouraud(tuile_t *t, sweep_t *sweep) { return lines_draw(t, sweep, SPAN_GOURAUD, false); }
+static TUILE_NOINLINE int lines_flat(tuile_t *t, sweep_t *sweep) { return lines_draw(t, sweep, SPAN_FLAT, false); }
+static TUILE_NOINLINE int lines_any(tuile_t *t, sweep_t *sweep) {
+    return lines_draw(t, sweep, t->span_kind, t->config.tie == TUILE_TIE_LAST);
 }
 
 static void sweep_empty(sweep_t *sweep, size_t room_bytes) {
@@ -318,12 +331,9 @@ static int scanline_draw_tile(tuile_t *t, uint16_t row) {
     if (!t->row_ready) { row_enter(t, t->tile.top); }
     if (t->tile_columns > 1) { sweep_empty(sweep, room_bytes); }
 
-    line_t line = {t->tile_memory, t->tile.colour, t->tile.left, t->tile.right};
-    const size_t stride = (size_t)t->tile.stride_px * TUILE_FORMAT_BYTES(t->config.format);
-    for (int32_t y = t->tile.top; y < t->tile.bottom; y++, line.colour += stride) {
-        const int result = line_draw(t, sweep, &line, y);
-        if (result != FRAME_OK) { return result; }
-    }
+    const bool any = t->span_kind == SPAN_IDS || t->config.tie == TUILE_TIE_LAST;
+    const int result = any ? lines_any(t, sweep) : t->span_kind == SPAN_GOURAUD ? lines_gouraud(t, sweep) : lines_flat(t, sweep);
+    if (result != FRAME_OK) { return result; }
     t->stream = (uint8_t *)sweep; /* what pass_measure counts */
     t->stream_end = t->stream + sweep->pool.top;
     if (t->tile_columns == 1) {
