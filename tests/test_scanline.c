@@ -82,7 +82,7 @@ static void check_table(const int (*points)[2], unsigned count, int direction, c
         vertices[i] = (vertex_t){(int16_t)(16 * point[0] + 8), (int16_t)(16 * (top - point[1]) + 8), 0};
     }
     const polygon_ring_t ring = {vertices, NULL, NULL, count};
-    active_list_t list = {0, 0, 0};
+    active_list_t list = {0};
     assert_true(active_begin(pool, &list, &ring, &plane, 0));
     for (unsigned row = 0; row < row_count; row++) {
         uint32_t at = list.first;
@@ -125,7 +125,7 @@ static void a_list_may_begin_at_any_row(void **state) {
             vertices[i] = (vertex_t){(int16_t)(16 * polygon[i][0] + 8), (int16_t)(16 * (9 - polygon[i][1]) + 8), 0};
         }
         const polygon_ring_t ring = {vertices, NULL, NULL, CHECK_COUNT(polygon)};
-        active_list_t list = {0, 0, 0};
+        active_list_t list = {0};
         assert_true(active_begin(pool, &list, &ring, &plane, (int32_t)first));
         assert_int_equal(list.row_end, 7);
         uint32_t at = list.first;

@@ -48,23 +48,55 @@ TUILE_INLINE bool insert(active_pool_t *pool, active_list_t *list, const vertex_
     return true;
 }
 
-/* Drops what ended above this row, and what ended in this point, if there is one. */
-static void drop_ended(active_pool_t *pool, active_list_t *list, const vertex_t *corner, int32_t row) {
+static void drop(active_pool_t *pool, uint32_t *link) {
+    const uint32_t at = *link;
+    *link = edge_at(pool, at)->next;
+    active_give(pool, &pool->free_edges, at);
+}
+
+/* Drops what has Δyc < 0 on this row. */
+static void drop_ended(active_pool_t *pool, active_list_t *list, int32_t row) {
     for (uint32_t *link = &list->first; *link;) {
-        const uint32_t at = *link;
-        active_edge_t *e = edge_at(pool, at);
-        if (e->row_end < row || (e->row_end == row && corner && e->end_x == corner->x && e->end_y == corner->y)) {
-            *link = e->next;
-            active_give(pool, &pool->free_edges, at);
+        active_edge_t *e = edge_at(pool, *link);
+        if (e->row_end < row) {
+            drop(pool, link);
         } else {
             link = &e->next;
         }
     }
 }
 
+/* Drops what ended on this row in the point where a side begins. When that was one side, and the new one stands where it stood, it
+ * takes its entry over: true. */
+static bool replace(active_pool_t *pool, active_list_t *list, const active_plane_t *plane, const vertex_t *upper,
+                    const vertex_t *lower, int32_t end, int32_t row) {
+    const active_edge_t *left = NULL;
+    for (uint32_t *link = &list->first; *link;) {
+        active_edge_t *e = edge_at(pool, *link);
+        if (e->row_end == row && e->end_x == upper->x && e->end_y == upper->y) {
+            const int32_t x = e->edge.x;
+            edge_start(&e->edge, upper->x, upper->y, lower->x, lower->y, row);
+            if ((left == NULL || active_left_of(&left->edge, &e->edge)) &&
+                (e->next == 0 || active_left_of(&e->edge, &edge_at(pool, e->next)->edge))) {
+                if (e->deep) { e->z += plane->dx * (uint64_t)(int64_t)(e->edge.x - x); }
+                e->row_end = (int16_t)end;
+                e->end_x = lower->x;
+                e->end_y = lower->y;
+                return true;
+            }
+            drop(pool, link);
+            continue;
+        }
+        left = e;
+        link = &e->next;
+    }
+    return false;
+}
+
 /* Enters the sides that cross `row`: with `all` into an empty list, else those of B[row]. Finds the next row where a side begins
  * or ends. */
-TUILE_INLINE bool enter(active_pool_t *pool, active_list_t *list, const polygon_ring_t *ring, bool all, int32_t row) {
+TUILE_INLINE bool enter(active_pool_t *pool, active_list_t *list, const polygon_ring_t *ring, const active_plane_t *plane, bool all,
+                        bool *ranks, int32_t row) {
     int32_t row_next = INT16_MAX, row_end = INT16_MIN;
     const vertex_t *a = polygon_ring_vertex(ring, ring->count - 1);
     int32_t a_row = edge_row(a->y);
@@ -79,8 +111,10 @@ TUILE_INLINE bool enter(active_pool_t *pool, active_list_t *list, const polygon_
             row_end = end > row_end ? end : row_end;
             if (all ? first <= row : first == row) {
                 const vertex_t *upper = down ? a : b, *lower = down ? b : a;
-                if (!all) { drop_ended(pool, list, upper, row); }
-                if (!insert(pool, list, upper, lower, end, row)) { return false; }
+                if (all || !replace(pool, list, plane, upper, lower, end, row)) {
+                    if (!insert(pool, list, upper, lower, end, row)) { return false; }
+                    *ranks = true;
+                }
             }
         }
         a = b;
@@ -92,19 +126,24 @@ TUILE_INLINE bool enter(active_pool_t *pool, active_list_t *list, const polygon_
 }
 
 bool active_begin(active_pool_t *pool, active_list_t *list, const polygon_ring_t *ring, const active_plane_t *plane, int32_t row) {
+    bool ranks;
     list->first = 0;
-    if (!enter(pool, list, ring, true, row)) { return false; }
+    list->review = false;
+    if (!enter(pool, list, ring, plane, true, &ranks, row)) { return false; }
     rank(pool, list, plane, row);
     return true;
 }
 
 bool active_change(active_pool_t *pool, active_list_t *list, const polygon_ring_t *ring, const active_plane_t *plane, int32_t row) {
-    drop_ended(pool, list, NULL, row);
-    if (!enter(pool, list, ring, false, row)) { return false; }
+    bool ranks = list->review, ended = false;
+    if (list->review) { drop_ended(pool, list, row); }
+    if (!enter(pool, list, ring, plane, false, &ranks, row)) { return false; }
     for (uint32_t at = list->first; at; at = edge_at(pool, at)->next) {
-        if (edge_at(pool, at)->row_end == row) { list->row_next = (int16_t)(row + 1); }
+        ended |= edge_at(pool, at)->row_end == row;
     }
-    rank(pool, list, plane, row);
+    if (ended) { list->row_next = (int16_t)(row + 1); }
+    if (ranks || ended) { rank(pool, list, plane, row); }
+    list->review = ended;
     return true;
 }
 
@@ -121,6 +160,7 @@ void active_drop(active_pool_t *pool, active_list_t *list) {
 void active_sort(active_pool_t *pool, active_list_t *list, const active_plane_t *plane, int32_t row) {
     uint32_t at = list->first;
     list->first = 0;
+    list->review = true; /* a side that has ended may be among them, with a rank of its own */
     while (at) {
         active_edge_t *e = edge_at(pool, at);
         const uint32_t next = e->next;

@@ -48,6 +48,7 @@ typedef struct active_list {
     uint32_t first;
     int16_t row_next; /* the next row where a side begins or ends, or has ended the row before */
     int16_t row_end;  /* no side has a row from here on */
+    bool review;      /* active_change is to look for sides that have ended, and to count the ranks anew */
 } active_list_t;
 
 TUILE_INLINE void *active_at(active_pool_t *pool, uint32_t offset) { return (uint8_t *)pool + offset; }
@@ -86,6 +87,16 @@ void active_sort(active_pool_t *pool, active_list_t *list, const active_plane_t 
 /* The crossing is x - 1 + (n + 1) / d. */
 TUILE_INLINE bool active_left_of(const edge_t *a, const edge_t *b) {
     return a->x < b->x || (a->x == b->x && (int64_t)(a->n + 1) * b->d < (int64_t)(b->n + 1) * a->d);
+}
+
+/* Moves two sides down to `row`: all of a list on which nothing begins or ends. */
+TUILE_INLINE void active_step_two(active_pool_t *pool, active_list_t *list, const active_plane_t *plane, active_edge_t *a,
+                                  active_edge_t *b, int32_t row) {
+    const int32_t x = a->edge.x;
+    edge_step(&a->edge);
+    edge_step(&b->edge);
+    a->z += plane->dy + plane->dx * (uint64_t)(int64_t)(a->edge.x - x);
+    if (TUILE_UNLIKELY(active_left_of(&b->edge, &a->edge))) { active_sort(pool, list, plane, row); }
 }
 
 /* Moves the sides down to `row`, one below the row they are on. On row_next, active_change has to follow. */

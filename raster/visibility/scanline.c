@@ -172,6 +172,28 @@ static TUILE_NOINLINE void span_polygon(const line_t *line, const face_t *face, 
     }
 }
 
+/* From one side to the next. */
+TUILE_INLINE void sides_draw(tuile_t *t, const line_t *line, const face_t *face, const active_edge_t *a, const active_edge_t *b,
+                             span_kind_t kind, bool last) {
+    int32_t from = a->edge.x, to = b->edge.x;
+    uint64_t z = a->z;
+    if (TUILE_UNLIKELY(from < line->left)) {
+        z += face->plane.dx * (uint64_t)(int64_t)(line->left - from);
+        from = line->left;
+    }
+    if (to > line->right) { to = line->right; }
+    if (from >= to) { return; }
+    if (face->polygon) {
+        span_polygon(line, face, from, to, (int64_t)z, kind, last);
+    } else if (kind == SPAN_GOURAUD) {
+        const int32_t first = from - line->left;
+        span_gouraud(line->depth + first, (uint16_t *)(void *)line->colour + first, to - from, z, face->plane.dx,
+                     frame_ramp(t, face->value), last);
+    } else {
+        span_draw(line, face, from, to - from, (uint32_t)(z >> 32), (uint32_t)(face->plane.dx >> 32), kind, last);
+    }
+}
+
 /* The document's "traiter les segments intersectés": entries two by two, those that have ended passed over. On every row an even
  * number is left. */
 TUILE_INLINE void face_draw(tuile_t *t, sweep_t *sweep, const line_t *line, const face_t *face, int32_t row, span_kind_t kind,
@@ -184,23 +206,7 @@ TUILE_INLINE void face_draw(tuile_t *t, sweep_t *sweep, const line_t *line, cons
             b = active_at(&sweep->pool, at);
             at = b->next;
         } while (b->row_end <= row);
-        int32_t from = a->edge.x, to = b->edge.x;
-        uint64_t z = a->z;
-        if (from < line->left) {
-            z += face->plane.dx * (uint64_t)(int64_t)(line->left - from);
-            from = line->left;
-        }
-        if (to > line->right) { to = line->right; }
-        if (from >= to) { continue; }
-        if (face->polygon) {
-            span_polygon(line, face, from, to, (int64_t)z, kind, last);
-        } else if (kind == SPAN_GOURAUD) {
-            const int32_t first = from - line->left;
-            span_gouraud(line->depth + first, (uint16_t *)(void *)line->colour + first, to - from, z, face->plane.dx,
-                         frame_ramp(t, face->value), last);
-        } else {
-            span_draw(line, face, from, to - from, (uint32_t)(z >> 32), (uint32_t)(face->plane.dx >> 32), kind, last);
-        }
+        sides_draw(t, line, face, a, b, kind, last);
     }
 }
 
@@ -220,8 +226,15 @@ TUILE_INLINE int line_draw(tuile_t *t, sweep_t *sweep, const line_t *line, int32
             continue;
         }
         if (at == 0) { break; }
-        face_draw(t, sweep, line, face, row, kind, last);
         active++;
+        active_edge_t *a = active_at(&sweep->pool, face->edges.first), *b = active_at(&sweep->pool, a->next);
+        if (TUILE_LIKELY(b->next == 0 && row + 1 < face->edges.row_next)) { /* most faces on most rows */
+            sides_draw(t, line, face, a, b, kind, last);
+            active_step_two(&sweep->pool, &face->edges, &face->plane, a, b, row + 1);
+            link = &face->next;
+            continue;
+        }
+        face_draw(t, sweep, line, face, row, kind, last);
         if (row + 1 == face->edges.row_end) {
             *link = face->next;
             face_end(sweep, at);
