@@ -29,16 +29,25 @@ static bool before(const edge_t *a, const edge_t *b) {
     return !active_left_of(b, a) && (a->q < b->q || (a->q == b->q && (int64_t)a->r * b->d < (int64_t)b->r * a->d));
 }
 
+/* A side to be linked in; 0: the pool is full. */
+TUILE_INLINE uint32_t side_take(active_pool_t *pool, const vertex_t *upper, const vertex_t *lower, int32_t end, int32_t row) {
+    const uint32_t at = active_take(pool, &pool->free_edges, sizeof(active_edge_t));
+    if (TUILE_LIKELY(at != 0)) {
+        active_edge_t *e = edge_at(pool, at);
+        edge_start(&e->edge, upper->x, upper->y, lower->x, lower->y, row);
+        e->row_end = (int16_t)end;
+        e->deep = false;
+        e->end_x = lower->x;
+        e->end_y = lower->y;
+    }
+    return at;
+}
+
 TUILE_INLINE bool insert(active_pool_t *pool, active_list_t *list, const vertex_t *upper, const vertex_t *lower, int32_t end,
                          int32_t row) {
-    const uint32_t at = active_take(pool, &pool->free_edges, sizeof(active_edge_t));
+    const uint32_t at = side_take(pool, upper, lower, end, row);
     if (at == 0) { return false; }
     active_edge_t *e = edge_at(pool, at);
-    edge_start(&e->edge, upper->x, upper->y, lower->x, lower->y, row);
-    e->row_end = (int16_t)end;
-    e->deep = false;
-    e->end_x = lower->x;
-    e->end_y = lower->y;
     uint32_t *link = &list->first;
     while (*link && !before(&e->edge, &edge_at(pool, *link)->edge)) {
         link = &edge_at(pool, *link)->next;
@@ -131,6 +140,33 @@ bool active_begin(active_pool_t *pool, active_list_t *list, const polygon_ring_t
     list->review = false;
     if (!enter(pool, list, ring, plane, true, &ranks, row)) { return false; }
     rank(pool, list, plane, row);
+    return true;
+}
+
+bool active_begin_triangle(active_pool_t *pool, active_list_t *list, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
+                           const active_plane_t *plane, int32_t row) {
+    const bool bends_left = v1->y < v2->y;
+    const vertex_t *mid = bends_left ? v1 : v2, *low = bends_left ? v2 : v1;
+    const int32_t row_mid = edge_row(mid->y), row_end = edge_row(low->y);
+    const bool bent = row >= row_mid;
+    const uint32_t bending = bent ? side_take(pool, mid, low, row_end, row) : side_take(pool, v0, mid, row_mid, row);
+    list->first = bending;
+    if (bending == 0) { return false; }
+    edge_at(pool, bending)->next = 0;
+    const uint32_t straight = side_take(pool, v0, low, row_end, row);
+    if (straight == 0) { return false; }
+    edge_at(pool, straight)->next = bends_left ? 0 : bending;
+    if (bends_left) {
+        edge_at(pool, bending)->next = straight;
+    } else {
+        list->first = straight;
+    }
+    active_edge_t *left = edge_at(pool, list->first);
+    left->z = plane->z + plane->dx * (uint64_t)(int64_t)left->edge.x + plane->dy * (uint64_t)(int64_t)row;
+    left->deep = true;
+    list->row_next = (int16_t)(bent ? row_end : row_mid);
+    list->row_end = (int16_t)row_end;
+    list->review = false;
     return true;
 }
 

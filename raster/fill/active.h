@@ -74,6 +74,10 @@ TUILE_INLINE void active_give(active_pool_t *pool, uint32_t *free_list, uint32_t
 /* Begins a list at a row. False: the pool is full. */
 bool active_begin(active_pool_t *pool, active_list_t *list, const polygon_ring_t *ring, const active_plane_t *plane, int32_t row);
 
+/* The same for a triangle that covers the row: v0 is a topmost vertex, v0 v1 v2 is counter-clockwise as seen. */
+bool active_begin_triangle(active_pool_t *pool, active_list_t *list, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
+                           const active_plane_t *plane, int32_t row);
+
 /* What the document does behind the step, on rows where a side begins or ends: sides with Δyc < 0 are dropped, those with Δyc = 0
  * where another one begins too, B[row] is inserted. False: the pool is full. */
 bool active_change(active_pool_t *pool, active_list_t *list, const polygon_ring_t *ring, const active_plane_t *plane, int32_t row);

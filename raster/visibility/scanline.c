@@ -87,46 +87,47 @@ static bool in_columns(const tuile_t *t, const record_t *record) {
     return edge_row(least) < t->tile.right && edge_row(most) > t->tile.left;
 }
 
-/* False: the face has no area. */
-static bool face_plane(const tuile_t *t, face_t *face, const record_t *record, const polygon_ring_t *ring) {
-    if (frame_record_is_triangle(record)) {
-        const vertex_t *v0 = &t->vertices[record->v0];
-        triangle_shade(v0, v0 + record->d1, v0 + record->d2, t->span_kind == SPAN_GOURAUD, &face->plane.z, &face->plane.dx,
-                       &face->plane.dy);
-        face->polygon = false;
-        return true;
-    }
-    depth_plane_t plane;
-    face->polygon = true;
-    if (!polygon_plane(ring, &plane)) { return false; }
-    face->plane = (active_plane_t){(uint64_t)plane.z, (uint64_t)plane.dx, (uint64_t)plane.dy};
-    face->low = plane.low;
-    face->high = plane.high;
-    return true;
-}
-
 static void face_end(sweep_t *sweep, uint32_t at) {
     active_drop(&sweep->pool, &face_at(sweep, at)->edges);
     active_give(&sweep->pool, &sweep->free_faces, at);
 }
 
-/* Links the face of a record in at its first row, when it covers any. */
+static bool triangle_begin(const tuile_t *t, sweep_t *sweep, face_t *face, const record_t *record, int32_t row) {
+    const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+    face->polygon = false;
+    triangle_shade(v0, v1, v2, t->span_kind == SPAN_GOURAUD, &face->plane.z, &face->plane.dx, &face->plane.dy);
+    return active_begin_triangle(&sweep->pool, &face->edges, v0, v1, v2, &face->plane, row);
+}
+
+/* A list without sides when the polygon has no area. */
+static bool polygon_begin(const tuile_t *t, sweep_t *sweep, face_t *face, const record_t *record, int32_t row) {
+    const polygon_ring_t ring = frame_record_ring(t, record);
+    depth_plane_t plane;
+    face->polygon = true;
+    face->edges = (active_list_t){0};
+    if (!polygon_plane(&ring, &plane)) { return true; }
+    face->plane = (active_plane_t){(uint64_t)plane.z, (uint64_t)plane.dx, (uint64_t)plane.dy};
+    face->low = plane.low;
+    face->high = plane.high;
+    return active_begin(&sweep->pool, &face->edges, &ring, &face->plane, row);
+}
+
+/* Links the face of a record in at its first row in the tile. */
 static TUILE_NOINLINE int face_start(tuile_t *t, sweep_t *sweep, uint32_t *link, uint32_t number, int32_t row) {
     const record_t *record = frame_record(t, number);
-    uint8_t three[3];
     if (t->tile_columns > 1 && !in_columns(t, record)) { return FRAME_OK; }
-    const polygon_ring_t ring = face_ring(t, record, three);
     const uint32_t at = active_take(&sweep->pool, &sweep->free_faces, sizeof(face_t));
     if (at == 0) { return FRAME_FULL; }
     face_t *face = face_at(sweep, at);
     t->stats.faces_setup++;
-    face->edges.first = 0;
     face->record = (uint16_t)number;
-    if (!face_plane(t, face, record, &ring)) {
+    const bool fits =
+        frame_record_is_triangle(record) ? triangle_begin(t, sweep, face, record, row) : polygon_begin(t, sweep, face, record, row);
+    if (!fits) { return FRAME_FULL; }
+    if (face->edges.first == 0) {
         face_end(sweep, at);
         return FRAME_OK;
     }
-    if (!active_begin(&sweep->pool, &face->edges, &ring, &face->plane, row)) { return FRAME_FULL; }
     face->value = t->span_kind == SPAN_GOURAUD && !face->polygon ? record->material : face_value(t, record);
     face->next = *link;
     *link = at;
