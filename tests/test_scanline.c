@@ -3,6 +3,7 @@
 #include "reference/scene_generator.h"
 #include "support/check.h"
 #include "support/frame.h"
+#include "support/random.h"
 #include "support/scenes.h"
 #include "support/stage.h"
 
@@ -137,6 +138,50 @@ static void a_list_may_begin_at_any_row(void **state) {
         }
         assert_int_equal(at, 0);
     }
+}
+
+static vertex_t corner(random_source_t *random) {
+    return (vertex_t){(int16_t)random_between(random, -300, 300), (int16_t)random_between(random, -300, 300), 0};
+}
+
+static void the_short_way_in_for_triangles_gives_the_same_list(void **state) {
+    random_source_t random = random_seed(14);
+    unsigned bent = 0, straight = 0;
+    (void)state;
+    for (unsigned round = 0; round < 20000; round++) {
+        uint64_t memory[2][40];
+        vertex_t v[3] = {corner(&random), corner(&random), corner(&random)};
+        const int area = (v[2].x - v[0].x) * (v[1].y - v[0].y) - (v[1].x - v[0].x) * (v[2].y - v[0].y);
+        const int first = edge_row(v[0].y), end = edge_row(v[1].y > v[2].y ? v[1].y : v[2].y);
+        if (area <= 0 || v[0].y > v[1].y || v[0].y > v[2].y || first == end) { continue; }
+        const active_plane_t plane = {random_bits(&random), random_bits(&random), random_bits(&random)};
+        const polygon_ring_t ring = {v, NULL, NULL, 3};
+        const int32_t row = random_between(&random, first, end - 1);
+        active_pool_t *pools[2] = {(active_pool_t *)(void *)memory[0], (active_pool_t *)(void *)memory[1]};
+        active_list_t lists[2] = {{0}, {0}};
+        *pools[0] = *pools[1] = (active_pool_t){16, sizeof memory[0], 0};
+        assert_true(active_begin(pools[0], &lists[0], &ring, &plane, row));
+        assert_true(active_begin_triangle(pools[1], &lists[1], &v[0], &v[1], &v[2], &plane, row));
+        assert_int_equal(lists[0].row_next, lists[1].row_next);
+        assert_int_equal(lists[0].row_end, lists[1].row_end);
+        uint32_t at[2] = {lists[0].first, lists[1].first};
+        for (unsigned rank = 0; rank < 2; rank++) {
+            const active_edge_t *a = active_at(pools[0], at[0]), *b = active_at(pools[1], at[1]);
+            assert_memory_equal(&a->edge, &b->edge, sizeof a->edge);
+            assert_int_equal(a->row_end, b->row_end);
+            assert_int_equal(a->end_x, b->end_x);
+            assert_int_equal(a->end_y, b->end_y);
+            assert_int_equal(a->deep, rank == 0);
+            assert_int_equal(b->deep, rank == 0);
+            if (rank == 0) { assert_true(a->z == b->z); }
+            at[0] = a->next;
+            at[1] = b->next;
+        }
+        assert_int_equal(at[0], 0);
+        assert_int_equal(at[1], 0);
+        lists[0].row_next == end ? bent++ : straight++;
+    }
+    assert_true(bent > 100 && straight > 100);
 }
 
 /* ---- frames ---- */
@@ -420,6 +465,7 @@ int main(void) {
         cmocka_unit_test(the_worked_table_of_the_document_comes_out_entry_by_entry),
         cmocka_unit_test(sides_that_cross_change_places_and_the_depth_goes_to_the_odd_rank),
         cmocka_unit_test(a_list_may_begin_at_any_row),
+        cmocka_unit_test(the_short_way_in_for_triangles_gives_the_same_list),
         cmocka_unit_test(random_scenes_are_those_of_the_z_buffer),
         cmocka_unit_test(models_are_those_of_the_z_buffer),
         cmocka_unit_test(files_are_those_of_the_z_buffer),
