@@ -75,7 +75,8 @@ typedef struct tuile_model {
     uint16_t radius;
     uint16_t flags;
     const uint8_t *positions, *normals, *clusters, *faces, *face_normals, *materials, *source;
-    const uint8_t *tree; /* NULL: none */
+    const uint8_t *fractions; /* NULL: none */
+    const uint8_t *tree;      /* NULL: none */
     uint32_t tree_words;
     uint16_t tree_depth;     /* nodes on the longest path */
     int16_t low[3], high[3]; /* the box of all positions, in steps relative to offset */

@@ -249,7 +249,7 @@ static void scenes_at_the_ends_of_their_ranges(void **state) {
             }
         }
         (void)vertex_stage(&transform, q[0], normals[0], COUNT, vertices);
-        const clip_face_t face = {q[0], vertices, corners, COUNT};
+        const clip_face_t face = {q[0], NULL, vertices, corners, COUNT};
         const int count = clip_polygon(&transform, &face, out, 64);
         assert_true(count >= 0);
         clipped += count > 0;

@@ -57,7 +57,7 @@ static int clip(const view_t *v, const int16_t (*q)[3], unsigned count, vertex_t
     for (unsigned i = 0; i < count; i++) {
         corners[i] = (uint8_t)i;
     }
-    const clip_face_t face = {q[0], vertices, corners, count};
+    const clip_face_t face = {q[0], NULL, vertices, corners, count};
     return clip_polygon(&v->transform, &face, out, capacity);
 }
 
@@ -407,7 +407,7 @@ static void a_shared_edge_is_cut_at_one_point(void **state) {
         (void)vertex_stage(&v.transform, q[0], NULL, 4, vertices);
         if (vertices[0].x == VERTEX_OUTSIDE || vertices[1].x != VERTEX_OUTSIDE) { continue; }
         for (int f = 0; f < 2; f++) {
-            const clip_face_t face = {q[0], vertices, faces[f], 3};
+            const clip_face_t face = {q[0], NULL, vertices, faces[f], 3};
             count[f] = clip_polygon(&v.transform, &face, out[f], POINTS_MAX);
         }
         /* Corner 0 is inside. What follows it in the first face is the cut, and so is what precedes it in the second. */
@@ -460,7 +460,7 @@ static void no_crack_and_no_overlap_along_a_wide_common_edge(void **state) {
         for (int f = 0; f < 2; f++) {
             vertex_t out[POINTS_MAX];
             const uint8_t bytes[3] = {(uint8_t)corners[f][0], (uint8_t)corners[f][1], (uint8_t)corners[f][2]};
-            const clip_face_t face = {q[0], vertices, bytes, 3};
+            const clip_face_t face = {q[0], NULL, vertices, bytes, 3};
             const int count = clip_polygon(&v.transform, &face, out, POINTS_MAX);
             const polygon_ring_t ring = {out, NULL, NULL, (uint32_t)count};
             polygon_chain_t chains[8];

@@ -237,30 +237,31 @@ static void the_order_along_a_line_is_exact(void **state) {
 /* By hand: an edge along x, cut by n x + y = c. */
 static void points_are_rounded_to_the_nearest_halves_up(void **state) {
     static const struct {
-        int32_t n, c, rounded; /* x = c / n */
-    } cases[] = {{2, 1, 1},  {2, -1, 0},  {2, -3, -1}, {2, 3, 2},   {3, 1, 0}, {3, 2, 1},
-                 {3, -1, 0}, {3, -2, -1}, {3, -4, -1}, {3, -5, -2}, {5, 0, 0}, {7, -21, -3}};
+        int32_t n, c, rounded; /* x = c / n, times 256 */
+    } cases[] = {{2, 1, 128},  {2, -1, -128}, {2, -3, -384}, {2, 3, 384},   {3, 1, 85},    {3, 2, 171}, {512, 1, 1},
+                 {512, -1, 0}, {3, -1, -85},  {3, -2, -171}, {3, -4, -341}, {3, -5, -427}, {5, 0, 0},   {7, -21, -768}};
     (void)state;
     for (unsigned i = 0; i < CHECK_COUNT(cases); i++) {
         const int64_t normal[3] = {cases[i].n, 1, 0};
         const int16_t through[3] = {0, (int16_t)cases[i].c, 9}, a[3] = {-100, 0, 4}, b[3] = {100, 0, 4};
         exact_plane_t plane, floor, wall;
         exact_point_t point, same;
-        int16_t at[3];
+        int32_t at[3];
         const int64_t y[3] = {0, 5, 0}, z[3] = {0, 0, -3};
         assert_false(exact_plane_make(&plane, normal, through));
         exact_point_on_edge(&point, a, b, &plane);
         exact_round(&point, at);
         assert_int_equal(at[0], cases[i].rounded);
         assert_int_equal(at[1], 0);
-        assert_int_equal(at[2], 4);
+        assert_int_equal(at[2], 1024);
         assert_false(exact_plane_make(&floor, y, a)); /* the same point where three planes meet */
         assert_true(exact_plane_make(&wall, z, a));
         exact_point_of_planes(&same, &wall, &plane, &floor);
         assert_true(exact_same(&point, &same));
         assert_int_equal(exact_hash(&point), exact_hash(&same));
         if (cases[i].c % cases[i].n == 0) { /* and a whole one */
-            exact_point_whole(&same, at);
+            const int16_t whole[3] = {(int16_t)(cases[i].c / cases[i].n), 0, 4};
+            exact_point_whole(&same, whole);
             assert_true(exact_same(&point, &same));
             assert_true(point.doubt == 0);
         }

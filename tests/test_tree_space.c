@@ -49,9 +49,12 @@ static void check_piece(const space_t *space, uint32_t piece, const corner_t *co
         bool same = true;
         for (uint32_t i = 0; i < count; i++) {
             const space_corner_t *corner = &space->corners[at->first + (first + i) % count];
-            int16_t place[3];
+            int32_t place[3];
             exact_round(&space->points[corner->point], place);
-            same = same && memcmp(place, corners[i].at, sizeof place) == 0 && space->lines[corner->line].edge == corners[i].edge;
+            for (int k = 0; k < 3; k++) {
+                same = same && place[k] == 256 * corners[i].at[k];
+            }
+            same = same && space->lines[corner->line].edge == corners[i].edge;
         }
         if (same) { return; }
     }

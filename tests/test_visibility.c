@@ -3,7 +3,6 @@
 
 #include "../raster/tuile.h"
 #include "reference/scene_generator.h"
-#include "reference/visibility_reference.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,26 +18,6 @@
 #define SCENES 1500
 #endif
 
-/* Compares every pixel of a scene with the reference; returns how many are wrong. `strict`: pixels without doubt. */
-static unsigned wrong_pixels(const char *text, const test_scene_t *scene, const uint32_t *ids) {
-    visibility_reference_t *reference;
-    sim_error_t error = {""};
-    unsigned wrong = 0;
-    if (visibility_reference_make(&reference, &scene->text, NULL, &error) != 0) { fail_msg("%s\n%s", error.text, text); }
-    for (int y = 0; y < scene->text.height; y++) {
-        for (int x = 0; x < scene->text.width; x++) {
-            const int32_t face = (int32_t)ids[y * scene->text.width + x] - 1;
-            const visibility_pixel_t expected = visibility_reference_at(reference, x, y);
-            const bool right = expected.doubt ? visibility_reference_allows(reference, x, y, face) : face == expected.face;
-            if (!right && wrong++ < 4) {
-                print_message("pixel %d,%d: face %d, expected %d, doubt %u\n", x, y, face, expected.face, expected.doubt);
-            }
-        }
-    }
-    visibility_reference_free(reference);
-    return wrong;
-}
-
 static void check_seeds(const scene_generator_t *options, uint64_t first, unsigned count) {
     for (uint64_t seed = first; seed < first + count; seed++) {
         char *text = scene_generate(seed, options);
@@ -46,7 +25,7 @@ static void check_seeds(const scene_generator_t *options, uint64_t first, unsign
         assert_non_null(text);
         test_scene_open(&scene, text);
         uint32_t *ids = test_scene_ids(&scene, NULL, 1 << 20, NULL);
-        const unsigned wrong = wrong_pixels(text, &scene, ids);
+        const unsigned wrong = test_scene_wrong_pixels(&scene, text, ids);
         free(ids);
         if (wrong) { fail_msg("seed %llu: %u pixels wrong\n%s", (unsigned long long)seed, wrong, text); }
         test_scene_close(&scene);
@@ -79,7 +58,7 @@ static void a_ground_plane_through_the_near_plane_reaches_the_horizon(void **sta
                        -r, -r, r, -r, r, r, -r, -r, r, r, -r, r);
         test_scene_open(&scene, text);
         uint32_t *ids = test_scene_ids(&scene, NULL, 1 << 20, NULL);
-        assert_int_equal(wrong_pixels(text, &scene, ids), 0);
+        assert_int_equal(test_scene_wrong_pixels(&scene, text, ids), 0);
         unsigned seen = 0;
         for (unsigned p = 160 * 62; p < 160 * 120; p++) {
             seen += ids[p] != 0;
@@ -112,7 +91,7 @@ static void random_triangles_across_the_near_plane_never_vanish(void **state) {
         test_scene_t scene;
         test_scene_open(&scene, text);
         uint32_t *ids = test_scene_ids(&scene, NULL, 1 << 20, NULL);
-        const unsigned wrong = wrong_pixels(text, &scene, ids);
+        const unsigned wrong = test_scene_wrong_pixels(&scene, text, ids);
         if (wrong) { fail_msg("round %u: %u pixels wrong\n%s", round, wrong, text); }
         free(ids);
         test_scene_close(&scene);

@@ -27,9 +27,13 @@ int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster)
     if (vertices > frame_slots_left(t)) { return FRAME_FULL; }
     bin_cluster_at(t, bytes, t->vertex_count, cluster);
     cluster->any_outside =
-        vertex_stage(&t->transform, (const int16_t *)(const void *)model->positions + 3 * (size_t)first_vertex,
+        vertex_stage(&t->transform, cluster->positions,
                      t->config.shade == TUILE_FLAT ? NULL : (const int8_t *)model->normals + 3 * (size_t)first_vertex, vertices,
                      cluster->vertices);
+    if (cluster->fractions) {
+        cluster->any_outside |=
+            vertex_fractions(&t->transform, cluster->positions, cluster->fractions, vertices, cluster->vertices);
+    }
     t->vertex_count += vertices;
     t->cluster_end = t->vertex_count;
     t->stats.vertices += vertices;
@@ -43,6 +47,8 @@ void bin_cluster_at(const tuile_t *t, const uint8_t *bytes, uint32_t slot, frame
     cluster->bytes = bytes;
     cluster->faces = model->faces + model_u32(bytes + CLUSTER_AT_FACE_BYTES);
     cluster->positions = (const int16_t *)(const void *)model->positions + 3 * (size_t)model_u32(bytes + CLUSTER_AT_FIRST_VERTEX);
+    cluster->fractions =
+        model->fractions ? (const int8_t *)model->fractions + 3 * (size_t)model_u32(bytes + CLUSTER_AT_FIRST_VERTEX) : NULL;
     cluster->face_normals = t->config.shade == TUILE_FLAT ? (const int8_t *)model->face_normals + 3 * (size_t)first_face : NULL;
     cluster->vertices = t->vertices + slot;
     cluster->any_outside = true;

@@ -160,7 +160,7 @@ static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *b
 /* A face of which some corner is beyond near plane, far plane or guard band. */
 static TUILE_NOINLINE int bin_clipped(tuile_t *t, const frame_cluster_t *cluster, const uint8_t *corners, unsigned count,
                                       uint8_t material, const int8_t *normal, uint32_t id) {
-    const clip_face_t face = {cluster->positions, cluster->vertices, corners, count};
+    const clip_face_t face = {cluster->positions, cluster->fractions, cluster->vertices, corners, count};
     vertex_t *out = t->vertices + t->vertex_count;
     const uint32_t mark = t->vertex_count;
     const int left = clip_polygon(&t->transform, &face, out, frame_slots_left(t));

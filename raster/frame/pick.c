@@ -49,8 +49,8 @@ static void pixel_ray(ray_t *ray, const tuile_camera_t *camera, const tuile_inst
     }
 }
 
-/* Positions of a face's corners, found by walking its cluster. Returns how many. */
-static unsigned face_corners(const tuile_model_t *model, uint32_t face, const uint8_t **corners, const uint8_t **positions) {
+/* A face's corners, found by walking its cluster: their numbers from first_vertex on. Returns how many. */
+static unsigned face_corners(const tuile_model_t *model, uint32_t face, const uint8_t **corners, uint32_t *first_vertex) {
     uint32_t low = 0, high = model->cluster_count;
     while (high - low > 1) {
         const uint32_t mid = low + (high - low) / 2;
@@ -63,7 +63,7 @@ static unsigned face_corners(const tuile_model_t *model, uint32_t face, const ui
     const uint8_t *cluster = model->clusters + (size_t)low * MODEL_CLUSTER_BYTES;
     const uint8_t *at = model->faces + model_u32(cluster + CLUSTER_AT_FACE_BYTES);
     uint32_t skip = face - model_u32(cluster + CLUSTER_AT_FIRST_FACE);
-    *positions = model->positions + 6 * (size_t)model_u32(cluster + CLUSTER_AT_FIRST_VERTEX);
+    *first_vertex = model_u32(cluster + CLUSTER_AT_FIRST_VERTEX);
     if (cluster[CLUSTER_AT_KIND] == MODEL_CLUSTER_TRIANGLES) {
         *corners = at + 4 * (size_t)skip;
         return 3;
@@ -75,16 +75,25 @@ static unsigned face_corners(const tuile_model_t *model, uint32_t face, const ui
     return at[0];
 }
 
+/* In 1/256 step. */
+static void corner_position(const tuile_model_t *model, uint32_t vertex, int32_t position[3]) {
+    for (unsigned a = 0; a < 3; a++) {
+        position[a] = 256 * model_i16(model->positions + 6 * (size_t)vertex + 2 * a);
+        if (model->fractions) { position[a] += (int8_t)model->fractions[3 * (size_t)vertex + a]; }
+    }
+}
+
 static void face_plane(const tuile_model_t *model, uint32_t face, wide_t normal[3], wide_t point[3]) {
-    const uint8_t *corners, *positions;
-    const unsigned count = face_corners(model, face, &corners, &positions);
+    const uint8_t *corners;
+    uint32_t first;
+    const unsigned count = face_corners(model, face, &corners, &first);
     int64_t sum[3] = {0, 0, 0};
-    for (unsigned i = 0; i < count; i++) { /* Newell: components below 255 * 2^33 */
+    for (unsigned i = 0; i < count; i++) { /* Newell: components below 255 * 2^49 */
         int32_t p[3], q[3];
-        for (unsigned a = 0; a < 3; a++) {
-            p[a] = model_i16(positions + 6 * (size_t)corners[i] + 2 * a);
-            q[a] = model_i16(positions + 6 * (size_t)corners[(i + 1) % count] + 2 * a);
-            if (i == 0) { point[a] = wide_make(p[a], 0); }
+        corner_position(model, first + corners[i], p);
+        corner_position(model, first + corners[(i + 1) % count], q);
+        for (unsigned a = 0; a < 3 && i == 0; a++) {
+            point[a] = wide_make(p[a], -8);
         }
         for (unsigned a = 0; a < 3; a++) {
             const unsigned b = (a + 1) % 3, c = (a + 2) % 3;

@@ -138,9 +138,11 @@ static void close_planes(clip_state_t *state) {
 static clip_point_t corner_point(const transform_t *transform, const clip_face_t *face, unsigned i) {
     const unsigned corner = face->corners[i];
     const int16_t *q = face->positions + 3 * (size_t)corner;
+    const int8_t *f = face->fractions ? face->fractions + 3 * (size_t)corner : NULL;
     const vertex_t *vertex = &face->vertices[corner];
-    return (clip_point_t){transform_fine(&transform->x, q), transform_fine(&transform->y, q), transform_fine(&transform->w, q),
-                          (int32_t)(vertex->depth_light & 0xff) << 16, (int16_t)(vertex->x == VERTEX_OUTSIDE ? -1 : (int)corner)};
+    return (clip_point_t){transform_finer(&transform->x, q, f), transform_finer(&transform->y, q, f),
+                          transform_finer(&transform->w, q, f), (int32_t)(vertex->depth_light & 0xff) << 16,
+                          (int16_t)(vertex->x == VERTEX_OUTSIDE ? -1 : (int)corner)};
 }
 
 int clip_polygon(const transform_t *transform, const clip_face_t *face, vertex_t *out, unsigned capacity) {

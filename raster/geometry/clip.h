@@ -7,6 +7,7 @@
 /* A face as the clipper sees it: corner i has position positions[corners[i]] and window vertex vertices[corners[i]]. */
 typedef struct clip_face {
     const int16_t *positions; /* 3 x int16 each */
+    const int8_t *fractions;  /* 3 x int8 each, in 1/256; NULL: none */
     const vertex_t *vertices;
     const uint8_t *corners;
     unsigned count;

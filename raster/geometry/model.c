@@ -139,6 +139,11 @@ int tuile_model_open(tuile_model_t *model, const void *data, size_t size_bytes) 
         if (!m.source) { return TUILE_ERROR_MODEL; }
     }
     if (!check_clusters(&m, face_bytes_size) || !check_box(&m)) { return TUILE_ERROR_MODEL; }
+    m.fractions = NULL;
+    if (model_u32(bytes + MODEL_AT_FRACTIONS) != 0) {
+        m.fractions = section(bytes, m.size_bytes, MODEL_AT_FRACTIONS, m.vertex_count, 3);
+        if (!m.fractions) { return TUILE_ERROR_MODEL; }
+    }
     m.tree = NULL;
     m.tree_words = model_u32(bytes + MODEL_AT_TREE_WORDS);
     m.tree_depth = model_u16(bytes + MODEL_AT_TREE_DEPTH);

@@ -14,7 +14,7 @@
 
 #define MODEL_MAGIC 0x4c495554u /* "TUIL" */
 #define MODEL_VERSION 2u
-#define MODEL_HEADER_BYTES 120u
+#define MODEL_HEADER_BYTES 124u
 
 /* Byte offsets in the header. */
 enum {
@@ -49,6 +49,7 @@ enum {
     MODEL_AT_ZERO = 106,       /* u16, 0 */
     MODEL_AT_LOW = 108,        /* 3 x i16, least of all positions */
     MODEL_AT_HIGH = 114,       /* 3 x i16, greatest */
+    MODEL_AT_FRACTIONS = 120,  /* 0 when all positions are whole steps */
 };
 
 enum {
@@ -56,6 +57,7 @@ enum {
 };
 
 /* positions    vertices x 3 x i16, in steps
+ * fractions    vertices x 3 x i8, to be added to the position, in 1/256 step: vertices that the display tree made by cutting
  * normals      vertices x 3 x i8, 127 = 1.0, outward
  * face normals faces x 3 x i8, of the plane, outward
  * materials    materials x {u8 red, green, blue, 0}

@@ -75,4 +75,11 @@ TUILE_INLINE int64_t transform_fine(const transform_row_t *row, const int16_t q[
     return (int64_t)row->m[0] * q[0] + (int64_t)row->m[1] * q[1] + (int64_t)row->m[2] * q[2] + row->t + ((low + (1 << 13)) >> 14);
 }
 
+/* The same at q + f / 256. f may be NULL. */
+TUILE_INLINE int64_t transform_finer(const transform_row_t *row, const int16_t q[3], const int8_t f[3]) {
+    const int64_t whole = transform_fine(row, q);
+    if (f == NULL) { return whole; }
+    return whole + (((int64_t)row->m[0] * f[0] + (int64_t)row->m[1] * f[1] + (int64_t)row->m[2] * f[2]) >> 8);
+}
+
 #endif

@@ -44,10 +44,10 @@ TUILE_NOINLINE bool vertex_project(const transform_t *transform, int64_t x, int6
     return true;
 }
 
-static TUILE_NOINLINE vertex_t vertex_from_fine(const transform_t *transform, const int16_t *q, uint8_t light) {
+static TUILE_NOINLINE vertex_t vertex_from_fine(const transform_t *transform, const int16_t *q, const int8_t *f, uint8_t light) {
     vertex_t vertex;
-    const bool inside = vertex_project(transform, transform_fine(&transform->x, q), transform_fine(&transform->y, q),
-                                       transform_fine(&transform->w, q), light, false, &vertex);
+    const bool inside = vertex_project(transform, transform_finer(&transform->x, q, f), transform_finer(&transform->y, q, f),
+                                       transform_finer(&transform->w, q, f), light, false, &vertex);
     return inside ? vertex : outside(light);
 }
 
@@ -74,7 +74,7 @@ static bool perspective(const transform_t *transform, const int16_t *q, const in
         const uint8_t light = next_light(transform, &normal);
         const int32_t w = coarse(&transform->w, q[0], q[1], q[2]);
         if (TUILE_UNLIKELY((uint32_t)w - (uint32_t)first >= range)) {
-            *out = vertex_from_fine(transform, q, light);
+            *out = vertex_from_fine(transform, q, NULL, light);
             any_outside |= out->x == VERTEX_OUTSIDE;
             continue;
         }
@@ -100,7 +100,7 @@ static bool orthographic(const transform_t *transform, const int16_t *q, const i
     bool any_outside = false;
     for (; count; count--, q += 3, out++) {
         const uint8_t light = next_light(transform, &normal);
-        *out = vertex_from_fine(transform, q, light);
+        *out = vertex_from_fine(transform, q, NULL, light);
         any_outside |= out->x == VERTEX_OUTSIDE;
     }
     return any_outside;
@@ -110,4 +110,15 @@ TUILE_NOINLINE bool vertex_stage(const transform_t *transform, const int16_t *po
                                  vertex_t *out) {
     return transform->perspective ? perspective(transform, positions, normals, count, out)
                                   : orthographic(transform, positions, normals, count, out);
+}
+
+bool vertex_fractions(const transform_t *transform, const int16_t *positions, const int8_t *fractions, unsigned count,
+                      vertex_t *out) {
+    bool any_outside = false;
+    for (unsigned i = 0; i < count; i++, positions += 3, fractions += 3) {
+        if (!(fractions[0] | fractions[1] | fractions[2])) { continue; }
+        out[i] = vertex_from_fine(transform, positions, fractions, (uint8_t)out[i].depth_light);
+        any_outside |= out[i].x == VERTEX_OUTSIDE;
+    }
+    return any_outside;
 }

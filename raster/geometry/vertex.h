@@ -23,6 +23,11 @@ typedef struct vertex {
  * any of them is outside. */
 bool vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out);
 
+/* Makes those of out[0 ... count - 1] anew, after vertex_stage, whose positions have fractions: 3 x int8 each, in 1/256. Returns
+ * whether any of these is outside. */
+bool vertex_fractions(const transform_t *transform, const int16_t *positions, const int8_t *fractions, unsigned count,
+                      vertex_t *out);
+
 /* Projects fine coordinates (clip-space, 46 bits). False outside near plane, far plane or guard band; with clamp, what lies beyond
  * the guard span is moved to its edge instead. Sets x, y and the depth; light is 0 ... 255. */
 bool vertex_project(const transform_t *transform, int64_t x, int64_t y, int64_t w, uint8_t light, bool clamp, vertex_t *out);

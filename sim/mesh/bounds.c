@@ -88,6 +88,13 @@ bounds_sphere_t bounds_of_vertices(const solid_t *solid, const uint32_t *vertice
             centre[k] += (to[k] - centre[k]) / (step + 2);
         }
     }
+    for (size_t i = 0; i < count; i++) { /* a fraction reaches less than one step further */
+        const int8_t *f = solid->vertices[vertices[i]].fraction;
+        if (f[0] | f[1] | f[2]) {
+            sphere.radius++;
+            break;
+        }
+    }
     return sphere;
 }
 

@@ -13,11 +13,11 @@ typedef struct sheet { /* a growing section */
 typedef struct encoder {
     const solid_t *solid;
     const clusters_t *clusters;
-    sheet_t positions, normals, table, faces, face_normals, materials, source, tree;
+    sheet_t positions, fractions, normals, table, faces, face_normals, materials, source, tree;
     uint32_t *local;    /* of each vertex of the solid: its place in the cluster at hand */
     uint32_t *vertices; /* of the cluster at hand, at most 255 */
     size_t vertex_count, face_count, cluster_vertices_max, corners_max;
-    bool failed;
+    bool any_fraction, failed;
 } encoder_t;
 
 static void put(encoder_t *e, sheet_t *sheet, uint64_t value, size_t size_bytes) {
@@ -111,6 +111,8 @@ static void encode_cluster(encoder_t *e, size_t k) {
         for (int i = 0; i < 3; i++) {
             put_signed(e, &e->positions, e->solid->vertices[e->vertices[v]].position[i], 2);
             put_signed(e, &e->normals, e->solid->vertices[e->vertices[v]].normal[i], 1);
+            put_signed(e, &e->fractions, e->solid->vertices[e->vertices[v]].fraction[i], 1);
+            e->any_fraction = e->any_fraction || e->solid->vertices[e->vertices[v]].fraction[i];
         }
     }
     for (size_t f = 0; f < count; f++) {
@@ -175,7 +177,8 @@ static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32
     for (size_t i = 0; i < MODEL_HEADER_BYTES; i++) {
         put(e, out, 0, 1);
     }
-    uint32_t at[8] = {place(out, e, &e->positions), 0};
+    if (!e->any_fraction) { e->fractions.size = 0; }
+    uint32_t at[9] = {place(out, e, &e->positions), 0};
     at[1] = place(out, e, &e->normals);
     at[2] = place(out, e, &e->table);
     at[3] = place(out, e, &e->faces);
@@ -183,6 +186,7 @@ static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32
     at[5] = place(out, e, &e->materials);
     at[6] = place(out, e, &e->source);
     at[7] = place(out, e, &e->tree);
+    at[8] = place(out, e, &e->fractions);
     for (size_t v = 0; v < solid->vertex_count && v < UINT32_MAX; v++) {
         e->local[v] = (uint32_t)v;
     }
@@ -208,6 +212,7 @@ static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32
         write_u32(header + MODEL_AT_OFFSET + 4 * k, (uint32_t)solid->offset[k]);
     }
     write_box(&e->positions, header + MODEL_AT_LOW, header + MODEL_AT_HIGH);
+    write_u32(header + MODEL_AT_FRACTIONS, at[8]);
     write_u32(header + MODEL_AT_POSITIONS, at[0]);
     write_u32(header + MODEL_AT_NORMALS, at[1]);
     write_u32(header + MODEL_AT_CLUSTER_TABLE, at[2]);
@@ -247,7 +252,8 @@ int solid_encode(const solid_t *solid, const clusters_t *clusters, const mesh_t 
         put(&e, &e.tree, tree->words[i], 4);
     }
     if (!e.failed) { finish(&e, &out, mesh, source32, tree); }
-    sheet_t *sections[] = {&e.positions, &e.normals, &e.table, &e.faces, &e.face_normals, &e.materials, &e.source, &e.tree};
+    sheet_t *sections[] = {&e.positions,    &e.fractions, &e.normals, &e.table, &e.faces,
+                           &e.face_normals, &e.materials, &e.source,  &e.tree};
     for (size_t s = 0; s < sizeof sections / sizeof sections[0]; s++) {
         free(sections[s]->bytes);
     }

@@ -267,7 +267,7 @@ static int emit(work_t *w, const mesh_face_t *from, const uint32_t *pick, size_t
     for (size_t i = 0; i < count; i++) {
         uint32_t c = w->corner[pick ? pick[i] : i], position = w->mesh->corners[c];
         solid_vertex_t *vertex = &w->vertices[solid->corner_count + i];
-        vertex->padding = 0;
+        memset(vertex->fraction, 0, sizeof vertex->fraction);
         memcpy(vertex->position, w->places[position], sizeof vertex->position);
         memcpy(vertex->normal, w->normals[w->mesh->corner_normals[c]], sizeof vertex->normal);
         w->vertex_places[solid->corner_count + i] = w->place_index[position];

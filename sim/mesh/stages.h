@@ -60,7 +60,7 @@ long mesh_triangulate(const int32_t (*points)[3], size_t count, uint32_t (*trian
 typedef struct solid_vertex {
     int16_t position[3];
     int8_t normal[3];
-    uint8_t padding; /* 0: vertices are compared by their bytes */
+    int8_t fraction[3]; /* in 1/256 step: of corners that a tree made. No padding: vertices are compared by their bytes */
 } solid_vertex_t;
 
 typedef struct solid_face {

@@ -171,10 +171,10 @@ uint64_t exact_hash(const exact_point_t *point) {
     return hash ^ hash >> 29;
 }
 
-void exact_round(const exact_point_t *point, int16_t at[3]) {
+void exact_round(const exact_point_t *point, int32_t at[3]) {
     for (int k = 0; k < 3; k++) {
-        mesh_int128_t above = 2 * point->x[k] + point->w, below = 2 * point->w; /* floor(x / w + 1/2) */
-        mesh_int128_t whole = above / below;
-        at[k] = (int16_t)(whole - (above % below < 0));
+        const mesh_int128_t whole = point->x[k] / point->w - (point->x[k] % point->w < 0); /* floor */
+        const mesh_int128_t rest = point->x[k] - whole * point->w;                         /* 0 <= rest < w < 2^102 */
+        at[k] = (int32_t)(256 * whole + (512 * rest + point->w) / (2 * point->w));
     }
 }

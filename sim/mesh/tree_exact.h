@@ -59,7 +59,7 @@ uint64_t exact_hash(const exact_point_t *point);
 /* The direction in which two planes meet, components < 2^67. */
 void exact_cross(const int64_t a[3], const int64_t b[3], mesh_int128_t cross[3]);
 
-/* To the nearest whole point, halves up. */
-void exact_round(const exact_point_t *point, int16_t at[3]);
+/* To the nearest 1/256, halves up, times 256. */
+void exact_round(const exact_point_t *point, int32_t at[3]);
 
 #endif

@@ -8,7 +8,7 @@
 #include <string.h>
 
 typedef struct rounded {
-    int16_t at[3];
+    int32_t at[3]; /* in 1/256 step */
     float normal[3];
     bool whole; /* nothing had to be rounded */
 } rounded_t;
@@ -125,9 +125,10 @@ static bool emit(maker_t *m, const space_face_t *from, bool reversed, const uint
     for (size_t i = 0; i < count; i++) {
         const rounded_t *corner = &m->outline[pick ? pick[i] : i];
         solid_vertex_t *vertex = &m->vertices[out->corner_count + i];
-        *vertex = (solid_vertex_t){.padding = 0};
+        *vertex = (solid_vertex_t){.fraction = {0}};
         for (int k = 0; k < 3; k++) {
-            vertex->position[k] = corner->at[k];
+            vertex->position[k] = (int16_t)((corner->at[k] + 128) >> 8);
+            vertex->fraction[k] = (int8_t)(corner->at[k] - 256 * vertex->position[k]);
             vertex->normal[k] = (int8_t)lrintf(corner->normal[k]);
         }
         face.piece = face.piece || !corner->whole;
@@ -182,11 +183,12 @@ static bool emit_triangles(maker_t *m, const space_face_t *face, bool reversed, 
 }
 
 /* Light is interpolated right on triangles and in fans only: what is lit unevenly and not convex becomes triangles. */
-static bool make_faces(maker_t *m, const space_piece_t *piece, bool reversed) {
+static bool make_faces(maker_t *m, const space_piece_t *piece, bool reversed, bool last) {
     const space_face_t *face = &m->space->faces[piece->face];
     if (!trace(m, piece)) { return false; }
     if (reversed) { reverse(m); }
-    tidy(m);
+    /* A model of nothing but spikes keeps one of them: an empty one is none. */
+    if (!last || m->out->face_count) { tidy(m); }
     if (m->count < 3) {
         m->counts->dropped++;
         return true;
@@ -216,7 +218,9 @@ static bool make_all(maker_t *m, tree_t *tree) {
         for (int l = 0; l < 2; l++) {
             const size_t before = m->out->face_count;
             for (uint32_t i = 0; i < lists[l]; i++, piece++) {
-                if (!make_faces(m, &m->space->pieces[tree->pieces[piece]], tree->reversed[piece])) { return false; }
+                if (!make_faces(m, &m->space->pieces[tree->pieces[piece]], tree->reversed[piece], piece + 1 == tree->piece_count)) {
+                    return false;
+                }
             }
             *(l ? &node->outward : &node->inward) = (uint32_t)(m->out->face_count - before);
         }
@@ -236,14 +240,18 @@ static bool join(maker_t *m) {
     }
     out->vertices = m->vertices;
     m->vertices = NULL;
-    int16_t(*places)[4] = mesh_array(out->vertex_count, sizeof *places);
+    struct place {
+        int16_t position[3];
+        int8_t fraction[3], none;
+    } *places = mesh_array(out->vertex_count, sizeof *places);
     out->places = mesh_array(out->vertex_count, sizeof *out->places);
     if (!places || !out->places) {
         free(places);
         return false;
     }
     for (size_t v = 0; v < out->vertex_count; v++) {
-        memcpy(places[v], out->vertices[v].position, sizeof out->vertices[v].position);
+        memcpy(places[v].position, out->vertices[v].position, sizeof places[v].position);
+        memcpy(places[v].fraction, out->vertices[v].fraction, sizeof places[v].fraction);
     }
     out->place_count = meshopt_generateVertexRemap(out->places, NULL, out->vertex_count, places, out->vertex_count, sizeof *places);
     free(places);

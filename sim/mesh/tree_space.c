@@ -223,7 +223,7 @@ static bool add_triangles(space_t *space, const solid_face_t *face) {
 }
 
 bool space_open(space_t *space, const solid_t *solid) {
-    *space = (space_t){.solid = solid, .rounding = solid->error / solid->step_value};
+    *space = (space_t){.solid = solid, .rounding = solid->error > 0 ? solid->error / solid->step_value : 0};
     space->places = mesh_array(solid->place_count, sizeof *space->places);
     if (!space->places || !mesh_reserve(&space->points, &space->point_capacity, solid->place_count, sizeof *space->points)) {
         return false;

@@ -1,6 +1,7 @@
 #include "scenes.h"
 
 #include "../reference/scene_generator.h"
+#include "../reference/visibility_reference.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,14 +10,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-void test_scene_open(test_scene_t *scene, const char *text) {
+static void open_scene(test_scene_t *scene, const char *text, bool tree) {
     sim_error_t error = {""};
     scene_quantisation_t quantisation;
-    const mesh_options_t options = scene_text_mesh_options();
+    mesh_options_t options = scene_text_mesh_options();
     mesh_report_t report;
     size_t size_bytes;
 
     memset(scene, 0, sizeof *scene);
+    options.tree = tree;
     if (scene_text_parse(&scene->text, text, strlen(text), "scene", &error) != 0 ||
         scene_text_mesh(&scene->text, &scene->mesh, &quantisation, &error) != 0 ||
         scene_text_camera(&scene->text, &quantisation, &scene->view, &error) != 0) {
@@ -34,6 +36,10 @@ void test_scene_open(test_scene_t *scene, const char *text) {
     scene->scene.camera = scene->view.camera;
 }
 
+void test_scene_open(test_scene_t *scene, const char *text) { open_scene(scene, text, false); }
+
+void test_scene_open_tree(test_scene_t *scene, const char *text) { open_scene(scene, text, true); }
+
 void test_scene_close(test_scene_t *scene) {
     scene_text_free(&scene->text);
     mesh_free(&scene->mesh);
@@ -48,7 +54,10 @@ static tuile_config_t complete(const test_scene_t *scene, const tuile_config_t *
     c.format = TUILE_FACE_IDS;
     c.tie = (uint8_t)scene->view.tie;
     if (c.cluster_vertices == 0 && scene->scene.instance_count) { c.cluster_vertices = scene->model.cluster_vertices_max; }
-    if (scene->scene.instance_count) { c.corners = scene->model.corners_max; }
+    if (scene->scene.instance_count) {
+        c.corners = scene->model.corners_max;
+        c.tree_depth = scene->model.tree_depth;
+    }
     return c;
 }
 
@@ -131,4 +140,23 @@ size_t test_scene_least(const test_scene_t *scene, const tuile_config_t *config)
     size_t wanted = 0;
     assert_int_equal(tuile_init(&renderer, &c, NULL, 0, &wanted), TUILE_ERROR_MEMORY);
     return wanted;
+}
+
+unsigned test_scene_wrong_pixels(const test_scene_t *scene, const char *text, const uint32_t *ids) {
+    visibility_reference_t *reference;
+    sim_error_t error = {""};
+    unsigned wrong = 0;
+    if (visibility_reference_make(&reference, &scene->text, NULL, &error) != 0) { fail_msg("%s\n%s", error.text, text); }
+    for (int y = 0; y < scene->text.height; y++) {
+        for (int x = 0; x < scene->text.width; x++) {
+            const int32_t face = (int32_t)ids[y * scene->text.width + x] - 1;
+            const visibility_pixel_t expected = visibility_reference_at(reference, x, y);
+            const bool right = expected.doubt ? visibility_reference_allows(reference, x, y, face) : face == expected.face;
+            if (!right && wrong++ < 4) {
+                print_message("pixel %d,%d: face %d, expected %d, doubt %u\n", x, y, face, expected.face, expected.doubt);
+            }
+        }
+    }
+    visibility_reference_free(reference);
+    return wrong;
 }
