@@ -49,7 +49,8 @@ void bin_cluster_at(const tuile_t *t, const uint8_t *bytes, uint32_t slot, frame
     cluster->positions = (const int16_t *)(const void *)model->positions + 3 * (size_t)model_u32(bytes + CLUSTER_AT_FIRST_VERTEX);
     cluster->fractions =
         model->fractions ? (const int8_t *)model->fractions + 3 * (size_t)model_u32(bytes + CLUSTER_AT_FIRST_VERTEX) : NULL;
-    cluster->face_normals = t->config.shade == TUILE_FLAT ? (const int8_t *)model->face_normals + 3 * (size_t)first_face : NULL;
+    cluster->plane_normals = (const int8_t *)model->face_normals + 3 * (size_t)first_face;
+    cluster->face_normals = t->config.shade == TUILE_FLAT ? cluster->plane_normals : NULL;
     cluster->vertices = t->vertices + slot;
     cluster->any_outside = true;
     cluster->first_face = t->face_base + first_face;

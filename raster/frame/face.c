@@ -4,6 +4,8 @@
 
 #include "frame.h"
 
+#include "../geometry/wide.h"
+
 /* Twice the signed area in (1/16 px)^2, positive for counter-clockwise as seen (the window's y points down). Inside the guard
  * band differences are below 2^15, so the products are below 2^30. */
 TUILE_INLINE int32_t signed_area(const vertex_t *a, const vertex_t *b, const vertex_t *c) {
@@ -236,8 +238,49 @@ static int bin_far_triangle(tuile_t *t, const frame_cluster_t *cluster, const ui
     return result;
 }
 
+/* The side of a polygon that is seen, by its plane: SIDE_FRONT or SIDE_BACK. For polygons that cross themselves. */
+static unsigned side_by_plane(const tuile_t *t, const frame_cluster_t *cluster, const uint8_t *corner, unsigned corners,
+                              unsigned f) {
+    const transform_t *transform = &t->transform;
+    const int8_t *outward = cluster->plane_normals + 3 * (size_t)f;
+    wide_t first[3], normal[3] = {{0, 0}}, most = {0, 0}, height = {0, 0}, turned = {0, 0};
+    for (unsigned i = 0; i < corners; i++) {
+        const unsigned j = i + 1 == corners ? 0 : i + 1;
+        wide_t a[3], b[3], cross[3], size = {0, 0};
+        for (unsigned k = 0; k < 3; k++) {
+            const size_t at[3] = {3 * (size_t)corner[0] + k, 3 * (size_t)corner[i] + k, 3 * (size_t)corner[j] + k};
+            int32_t q[3];
+            for (unsigned c = 0; c < 3; c++) {
+                q[c] = 256 * cluster->positions[at[c]] + (cluster->fractions ? cluster->fractions[at[c]] : 0);
+            }
+            first[k] = wide_make(q[0], -8);
+            a[k] = wide_make(q[1] - q[0], -8);
+            b[k] = wide_make(q[2] - q[0], -8);
+        }
+        for (unsigned k = 0; k < 3; k++) {
+            const unsigned y = (k + 1) % 3, z = (k + 2) % 3;
+            cross[k] = wide_add(wide_multiply(a[y], b[z]), wide_negate(wide_multiply(a[z], b[y])));
+            size = wide_add(size, wide_abs(cross[k]));
+        }
+        if (wide_sign(wide_add(size, wide_negate(most))) > 0) { /* the largest triangle is the least disturbed by rounding */
+            most = size;
+            for (unsigned k = 0; k < 3; k++) {
+                normal[k] = cross[k];
+            }
+        }
+    }
+    for (unsigned k = 0; k < 3; k++) {
+        wide_t to = wide_make(transform->observer[k], transform->perspective ? -transform->observer_bits : 0);
+        if (transform->perspective) { to = wide_add(to, wide_negate(first[k])); }
+        height = wide_add(height, wide_multiply(normal[k], to));
+        turned = wide_add(turned, wide_multiply(normal[k], wide_make(outward[k], 0)));
+    }
+    const bool outside = (wide_sign(height) >= 0) == (wide_sign(turned) >= 0);
+    return outside == transform->mirrored ? SIDE_BACK : SIDE_FRONT;
+}
+
 /* One face of a cluster of polygons. */
-static int bin_polygon_face(tuile_t *t, const frame_cluster_t *cluster, const uint8_t *face, unsigned f) {
+static int bin_polygon_any(tuile_t *t, const frame_cluster_t *cluster, const uint8_t *face, unsigned f) {
     const bool far_apart = cluster->bytes[CLUSTER_AT_VERTEX_COUNT] > MODEL_TRIANGLE_CLUSTER_VERTICES;
     const int8_t *normal = cluster->face_normals ? cluster->face_normals + 3 * (size_t)f : NULL;
     const unsigned corners = face[0];
@@ -266,6 +309,19 @@ static int bin_polygon_face(tuile_t *t, const frame_cluster_t *cluster, const ui
             result = bin_polygon(t, &ring, v, material, normal, id);
         }
     }
+    return result;
+}
+
+static int bin_polygon_face(tuile_t *t, const frame_cluster_t *cluster, const uint8_t *face, unsigned f) {
+    if (TUILE_LIKELY(!(face[1] & MODEL_FACE_CROSSING))) { return bin_polygon_any(t, cluster, face, f); }
+    if (!(side_by_plane(t, cluster, face + 3, face[0], f) & t->sides)) {
+        t->stats.faces_back++;
+        return FRAME_OK;
+    }
+    const uint8_t sides = t->sides;
+    t->sides = SIDE_FRONT | SIDE_BACK;
+    const int result = bin_polygon_any(t, cluster, face, f);
+    t->sides = sides;
     return result;
 }
 

@@ -157,8 +157,9 @@ typedef struct frame_cluster {
     const uint8_t *bytes; /* in the model's table */
     const uint8_t *faces;
     const int16_t *positions;
-    const int8_t *fractions;    /* NULL: none */
-    const int8_t *face_normals; /* flat shading, else NULL */
+    const int8_t *fractions;     /* NULL: none */
+    const int8_t *face_normals;  /* flat shading, else NULL */
+    const int8_t *plane_normals; /* of its faces, whatever the shading */
     vertex_t *vertices;
     bool any_outside;    /* some vertex may need clipping */
     uint32_t first_face; /* id - 1 of its first face */

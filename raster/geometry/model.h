@@ -87,7 +87,11 @@ enum {
 };
 enum { MODEL_CLUSTER_TRIANGLES = 0, MODEL_CLUSTER_POLYGONS = 1 };
 #define MODEL_POLYGON_BYTES(corners) (4u + (corners))
-enum { MODEL_FACE_CONVEX = 1 }; /* strictly: may be cut into a fan from its first corner */
+enum {
+    MODEL_FACE_CONVEX = 1,   /* strictly: may be cut into a fan from its first corner */
+    MODEL_FACE_CROSSING = 2, /* crosses itself: parts of it may turn the other way, so that its area in the window does not tell
+                                which of its sides is seen */
+};
 
 #define MODEL_TRIANGLE_CLUSTER_VERTICES 128u /* a cluster of triangles has at most so many vertices */
 

@@ -159,6 +159,23 @@ static void view_direction(transform_t *transform, const tuile_camera_t *camera,
     }
 }
 
+/* Do the rotations of pose and camera together turn the world inside out? */
+static bool mirrored(const tuile_scene_t *scene, const tuile_instance_t *instance) {
+    const q2_30_t(*m[2])[3] = {scene->camera.rotation, instance->pose.rotation};
+    bool odd = false;
+    for (int i = 0; i < 2; i++) {
+        int64_t r[3][3], determinant = 0;
+        for (int j = 0; j < 9; j++) {
+            r[j / 3][j % 3] = m[i][j / 3][j % 3] >> 12; /* <= 2^18 */
+        }
+        for (int j = 0; j < 3; j++) {
+            determinant += r[0][j] * (r[1][(j + 1) % 3] * r[2][(j + 2) % 3] - r[1][(j + 2) % 3] * r[2][(j + 1) % 3]);
+        }
+        odd ^= determinant < 0;
+    }
+    return odd;
+}
+
 static int check(const tuile_scene_t *scene, const tuile_instance_t *instance) {
     const tuile_camera_t *camera = &scene->camera;
     if (instance->model == NULL || instance->pose.scale.mantissa == 0 || instance->pose.scale.exponent < -1000 ||
@@ -251,6 +268,7 @@ int transform_make(transform_t *transform, const tuile_scene_t *scene, const tui
                                    : orthographic_rows(transform, camera, instance->model, view);
     if (error) { return error; }
     light_vectors(transform, scene, instance);
+    transform->mirrored = mirrored(scene, instance);
     transform->cones = !instance->two_sided;
     if (transform->perspective) {
         eye_position(transform, camera, instance);

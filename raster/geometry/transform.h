@@ -48,6 +48,7 @@ typedef struct transform {
     int32_t observer[3];   /* for the sides of planes: perspective: the eye, in steps * 2^observer_bits; orthographic: the way to
                               the observer. |.| < 2^30 */
     int16_t observer_bits; /* <= 14 */
+    bool mirrored;         /* counter-clockwise in the model is clockwise in the window, seen from the same side */
     bool cones;            /* clusters may be dropped by their cones: one-sided, and the eye within 2^51 steps */
     /* Light. */
     int32_t lights[TRANSFORM_LIGHTS_MAX][3]; /* in model space, towards the light, scaled: (normal . light) >> 13 is 0 ... 255;

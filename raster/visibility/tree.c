@@ -142,23 +142,6 @@ static int descend(tuile_t *t, walk_t *walk, uint32_t at) {
     }
 }
 
-/* Do rotations of pose and camera together turn the world inside out? */
-static bool mirrored(const tuile_t *t) {
-    const q2_30_t(*m[2])[3] = {t->scene->camera.rotation, t->instance->pose.rotation};
-    bool odd = false;
-    for (int i = 0; i < 2; i++) {
-        int64_t r[3][3], determinant = 0;
-        for (int j = 0; j < 9; j++) {
-            r[j / 3][j % 3] = m[i][j / 3][j % 3] >> 12; /* <= 2^18 */
-        }
-        for (int j = 0; j < 3; j++) {
-            determinant += r[0][j] * (r[1][(j + 1) % 3] * r[2][(j + 2) % 3] - r[1][(j + 2) % 3] * r[2][(j + 1) % 3]);
-        }
-        odd ^= determinant < 0;
-    }
-    return odd;
-}
-
 /* One instance, back to front. */
 static int draw_instance(tuile_t *t, unsigned number) {
     walk_t walk = {.stack = t->tree_stack, .cluster = UINT32_MAX, .backwards = t->config.tie == TUILE_TIE_FIRST};
@@ -166,7 +149,7 @@ static int draw_instance(tuile_t *t, unsigned number) {
     if (result != FRAME_OK) { return result; }
     const tuile_model_t *model = t->instance->model;
     walk.two_sided = t->instance->two_sided;
-    walk.outer = mirrored(t) ? SIDE_BACK : SIDE_FRONT;
+    walk.outer = t->transform.mirrored ? SIDE_BACK : SIDE_FRONT;
     walk.inner = walk.outer ^ (SIDE_FRONT | SIDE_BACK);
     for (uint32_t k = 0; !t->immediate && k < model->cluster_count; k++) {
         t->cluster_slots[k] = CLUSTER_UNSEEN;

@@ -51,7 +51,7 @@ static void encode_face(encoder_t *e, const solid_face_t *face, bool triangles) 
         put(e, &e->faces, face->material, 1);
     } else {
         put(e, &e->faces, face->count, 1);
-        put(e, &e->faces, face->convex ? MODEL_FACE_CONVEX : 0, 1);
+        put(e, &e->faces, (face->convex ? MODEL_FACE_CONVEX : 0u) | (face->crossing ? MODEL_FACE_CROSSING : 0u), 1);
         put(e, &e->faces, face->material, 1);
         for (uint32_t i = 0; i < face->count; i++) {
             put(e, &e->faces, e->local[corners[i]], 1);

@@ -67,6 +67,7 @@ typedef struct solid_face {
     uint32_t first, count; /* in solid_t.corners; count 3 ... 255 */
     uint32_t material, source;
     bool convex;
+    bool crossing;     /* of a tree: some part of it turns the other way */
     bool piece;        /* cut by the display tree's compiler: its corners were rounded, its normal is that of its support plane */
     int64_t normal[3]; /* Newell's, exact: twice the area long; of a piece any length */
     double unit[3];

@@ -101,6 +101,10 @@ static void tidy(maker_t *m) {
 
 /* ---- faces -------------------------------------------------------------------------------------------------- */
 
+static double squares(const int64_t v[3]) {
+    return (double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] + (double)v[2] * (double)v[2];
+}
+
 static bool emit(maker_t *m, const space_face_t *from, bool reversed, const uint32_t *pick, size_t count, bool convex) {
     solid_t *out = m->out;
     const size_t corners = out->corner_count + count;
@@ -114,13 +118,11 @@ static bool emit(maker_t *m, const space_face_t *from, bool reversed, const uint
         !mesh_reserve(&m->planes, &m->plane_capacity, out->face_count + 1, sizeof *m->planes)) {
         return false;
     }
-    double squares = 0;
     for (int k = 0; k < 3; k++) {
         face.normal[k] = m->space->planes[from->plane].n[k] * (from->turned != reversed ? -1 : 1);
-        squares += (double)face.normal[k] * (double)face.normal[k];
     }
     for (int k = 0; k < 3; k++) {
-        face.unit[k] = (double)face.normal[k] / sqrt(squares);
+        face.unit[k] = (double)face.normal[k] / sqrt(squares(face.normal));
     }
     for (size_t i = 0; i < count; i++) {
         const rounded_t *corner = &m->outline[pick ? pick[i] : i];
@@ -182,6 +184,25 @@ static bool emit_triangles(maker_t *m, const space_face_t *face, bool reversed, 
     return count >= 0;
 }
 
+/* Does some part of the outline turn the other way? Then a triangle of it does. */
+static bool crosses(maker_t *m, const int64_t normal[3], bool *crossing) {
+    const long count = mesh_triangulate((const int32_t(*)[3])m->points, m->count, m->triangles);
+    *crossing = count == 0;
+    for (long t = 0; t < count && !*crossing; t++) {
+        int32_t three[3][3];
+        int64_t turn[3];
+        for (int c = 0; c < 3; c++) {
+            memcpy(three[c], m->points[m->triangles[t][c]], sizeof three[c]);
+        }
+        solid_newell((const int32_t(*)[3])three, 3, turn);
+        /* Slivers may turn any way by rounding; what they cover is nothing. */
+        const double along =
+            (double)turn[0] * (double)normal[0] + (double)turn[1] * (double)normal[1] + (double)turn[2] * (double)normal[2];
+        *crossing = along < -1e-6 * sqrt(squares(turn) * squares(normal));
+    }
+    return count >= 0;
+}
+
 /* Light is interpolated right on triangles and in fans only: what is lit unevenly and not convex becomes triangles. */
 static bool make_faces(maker_t *m, const space_piece_t *piece, bool reversed, bool last) {
     const space_face_t *face = &m->space->faces[piece->face];
@@ -205,7 +226,12 @@ static bool make_faces(maker_t *m, const space_piece_t *piece, bool reversed, bo
         }
     }
     bool convex = m->count == 3 || solid_convex((const int32_t(*)[3])m->points, m->count, normal);
-    if (m->count <= MESH_CORNERS_MAX && (convex || face->even)) { return emit(m, face, reversed, NULL, m->count, convex); }
+    if (m->count <= MESH_CORNERS_MAX && (convex || face->even)) {
+        bool crossing = false;
+        if ((!convex && !crosses(m, normal, &crossing)) || !emit(m, face, reversed, NULL, m->count, convex)) { return false; }
+        m->out->faces[m->out->face_count - 1].crossing = crossing;
+        return true;
+    }
     return emit_triangles(m, face, reversed, normal);
 }
 
