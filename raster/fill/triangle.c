@@ -154,8 +154,9 @@ void triangle_plane(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, 
                                  : gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
     plane->dx = depth.dx;
     plane->dy = depth.dy;
-    plane->z = ((int64_t)depth0 << 8) + 0x8000 + gradient_part(depth, (8 - x0) & 15, (8 - y0) & 15) + depth.dx * ((8 - x0) >> 4) +
-               depth.dy * ((8 - y0) >> 4);
+    plane->z = (int64_t)((uint64_t)(((int64_t)depth0 << 8) + 0x8000 + gradient_part(depth, (8 - x0) & 15, (8 - y0) & 15)) +
+                         (uint64_t)depth.dx * (uint64_t)(int64_t)((8 - x0) >> 4) +
+                         (uint64_t)depth.dy * (uint64_t)(int64_t)((8 - y0) >> 4)); /* as shade_start: modulo 2^64 */
     plane->low = 0;
     plane->high = UINT32_MAX;
 }

@@ -30,6 +30,7 @@ const char *tuile_error_text(int error) {
 static const visibility_method_t *method_of(uint8_t number) {
     switch (number) {
     case TUILE_ZBUFFER: return METHOD(TUILE_ZBUFFER, visibility_zbuffer);
+    case TUILE_PAINTER: return METHOD(TUILE_PAINTER, visibility_painter);
     default: return NULL;
     }
 }
