@@ -2,40 +2,42 @@
  * depth per pixel.
  *
  * Faces are sorted by their farthest depth. The first one, P, may be painted when it hides nothing of any face Q that is not
- * painted yet; only those Q matter whose depths overlap with P's and whose boxes meet its box, which priority.h looks at. A Q that P
- * hides something of is to be painted before P: Q becomes the next P, and P waits. The faces that wait are a path, each hiding
+ * painted yet; only those Q matter whose depths overlap with P's and whose boxes meet its box, which priority.h looks at. A Q that
+ * P hides something of is to be painted before P: Q becomes the next P, and P waits. The faces that wait are a path, each hiding
  * something of the next. When Q itself waits there, the faces between hide one another in a cycle; when P and Q hide something of
  * each other, they cross: then one of them is cut (piece.h), and its pieces take its place.
  *
  * It ends. Faces that cross are cut in two pieces that do not cross that face any more. In a cycle, a face is cut by the plane
- * of the one that it is to be painted after, if it has corners on both sides and was not cut there before, which is so once for each
- * two faces; else the largest of the cycle is cut between two rows or columns of pixels. Pieces of one pixel are compared at
+ * of the one that it is to be painted after, if it has corners on both sides and was not cut there before, which is so once for
+ * each two faces; else the largest of the cycle is cut between two rows or columns of pixels. Pieces of one pixel are compared at
  * that pixel alone, by depth and number: there is no cycle among them.
  *
- * Memory: 2 bytes for each face while it sorts, in the room between vertices and records, and 16 bytes more for its bounds where
- * there is room, which only makes it faster. A cut takes a record and 8 slots of 8 bytes or a little more; they stay there while the
- * pass is drawn. */
+ * Memory: 2 bytes for each face while it sorts, in the room between vertices and records, and where there is room 21 bytes more for
+ * its bounds and the bands that they lie in, which only make it faster. A cut takes a record and 8 slots of 8 bytes or a little
+ * more; they stay there while the pass is drawn. */
 #include "../tune.h"
 
 #include "paint.h"
 
 #include "../memory.h"
+#include "bands.h"
 #include "painter.h"
 #include "priority.h"
 
 #define PAINTED UINT16_MAX /* in the place of a record's number */
-#define WAITING 1          /* `next` of a face that waits: WAITING + 1 + place of the face that waits for it; or WAITING: none does */
-#define MOST 65000u        /* records: their places and these marks fit in 16 bits */
+#define WAITING 1   /* `next` of a face that waits: WAITING + 1 + place of the face that waits for it; or WAITING: none does */
+#define MOST 65000u /* records: their places and these marks fit in 16 bits */
 
 typedef struct painter {
     tuile_t *t;
-    uint16_t *places;        /* numbers of records, farthest first; they end where the records begin */
-    uint32_t count;          /* places */
-    uint32_t first;          /* place of the first face that is not painted */
-    face_bounds_t *bounds;   /* of records base ... base + bounded - 1; NULL: no room */
+    uint16_t *places;      /* numbers of records, farthest first; they end where the records begin */
+    uint32_t count;        /* places */
+    uint32_t first;        /* place of the first face that is not painted */
+    face_bounds_t *bounds; /* of records base ... base + bounded - 1; NULL: no room */
     uint32_t base, bounded;
+    const uint8_t *bounds_end;
+    bands_t bands;           /* of the places; words NULL: no room */
     uint16_t painted, *last; /* the faces that are painted, linked through `next` */
-    uint32_t painted_count;
     /* The path of faces that wait. */
     uint32_t head;   /* place of P */
     uint32_t cursor; /* P hides nothing of the faces in the places before */
@@ -49,11 +51,13 @@ static const face_bounds_t *bounds_of(const painter_t *p, uint32_t number, face_
 
 static uint8_t *slots_end(const tuile_t *t) { return (uint8_t *)(t->vertices + t->vertex_count); }
 
-/* Bounds that are kept give way to what is needed. */
+/* Bounds and bands give way to what is needed. */
 static void bounds_yield(painter_t *p) {
-    if (p->bounds != NULL && (slots_end(p->t) > (uint8_t *)p->bounds || (uint8_t *)p->places < (uint8_t *)(p->bounds + p->bounded))) {
+    if (p->bounds != NULL && (slots_end(p->t) > (uint8_t *)p->bounds || (uint8_t *)p->places < p->bounds_end)) {
         p->bounds = NULL;
+        p->bands.words = NULL;
     }
+    if (p->count >= 32 * p->bands.count) { p->bands.words = NULL; }
 }
 
 /* ---- sorting ---- */
@@ -144,7 +148,10 @@ static bool leave(painter_t *p, uint32_t cursor) {
 static int insert(painter_t *p, uint32_t at) {
     tuile_t *t = p->t;
     const size_t down = t->record_bytes / sizeof(uint16_t) + 1;
-    if ((size_t)((uint8_t *)p->places - slots_end(t)) < (down + 1) * sizeof(uint16_t) || t->record_count >= MOST) { return FRAME_FULL; }
+    if ((size_t)((uint8_t *)p->places - slots_end(t)) < (down + 1) * sizeof(uint16_t) || t->record_count >= MOST) {
+        return FRAME_FULL;
+    }
+    if (p->bands.words != NULL) { bands_insert(&p->bands, at, p->count); }
     memmove(p->places - down, p->places, (at + 1) * sizeof(uint16_t));
     memmove(p->places - down + at + 2, p->places + at + 1, (p->count - at - 1) * sizeof(uint16_t));
     p->places -= down;
@@ -268,16 +275,39 @@ static int cut_crossed(painter_t *p, uint32_t place, bool *going) {
 
 /* ---- the order ---- */
 
+/* Is no face from this place on, where a word of the bands begins, farther than `nearest`? */
+static bool all_nearer(const painter_t *p, uint32_t place, uint32_t nearest) {
+    face_bounds_t scratch;
+    while (place < p->count && p->places[place] == PAINTED) {
+        place++;
+    }
+    return place >= p->count || bounds_of(p, p->places[place], &scratch)->far > nearest;
+}
+
+/* Moves the cursor on to the next place whose face may meet the box. bits: of those from the cursor on in its word, the ones that
+ * may. False when there is none that is not nearer than `nearest`. */
+TUILE_INLINE bool next_place(painter_t *p, uint32_t *bits, const face_bounds_t *box, uint32_t nearest) {
+    if (TUILE_UNLIKELY(p->bands.words == NULL)) { return p->cursor < p->count; }
+    while (*bits == 0) { /* the cursor is still in the word that they were of */
+        p->cursor = (p->cursor | 31) + 1;
+        if (all_nearer(p, p->cursor, nearest)) { return false; }
+        *bits = bands_near(&p->bands, p->cursor / 32, box);
+    }
+    p->cursor = (p->cursor & ~31u) + 31 - fixed_clz32(*bits & (0 - *bits));
+    return true;
+}
+
 /* Looks for a face that P hides something of, from the cursor on; leaves the cursor there. FREE: there is none. */
 static priority_t find_hidden(painter_t *p, priority_face_t *head, priority_face_t *face) {
     const tuile_t *t = p->t;
     const uint32_t number = p->places[p->head];
     face_bounds_t scratch, own = *bounds_of(p, number, &scratch);
     const uint32_t nearest = own.near + PRIORITY_MARGIN;
-    uint32_t compared = 0;
-    priority_t result = PRIORITY_FREE;
+    uint32_t bits = 0;
     bool open = false;
-    for (; p->cursor < p->count; p->cursor++) {
+    if (own.left >= own.right || p->cursor >= p->count) { return PRIORITY_FREE; } /* a piece without pixels; the last face */
+    if (p->bands.words != NULL) { bits = bands_near(&p->bands, p->cursor / 32, &own) & (UINT32_MAX << (p->cursor % 32)); }
+    for (; next_place(p, &bits, &own, nearest); bits &= bits - 1, p->cursor += p->bands.words == NULL) {
         const uint32_t other = p->places[p->cursor];
         if (other == PAINTED || p->cursor == p->head) { continue; }
         const face_bounds_t *bounds = bounds_of(p, other, &scratch);
@@ -286,12 +316,11 @@ static priority_t find_hidden(painter_t *p, priority_face_t *head, priority_face
         if (!open) { priority_open(head, t, number); }
         open = true;
         priority_open(face, t, other);
-        compared++;
-        result = priority_compare(t, head, &own, face, bounds);
-        if (result != PRIORITY_FREE) { break; }
+        p->t->stats.compared++;
+        const priority_t result = priority_compare(t, head, &own, face, bounds);
+        if (result != PRIORITY_FREE) { return result; }
     }
-    p->t->stats.compared += compared;
-    return result;
+    return PRIORITY_FREE;
 }
 
 static void paint(painter_t *p) {
@@ -299,7 +328,10 @@ static void paint(painter_t *p) {
     (void)leave(p, place + 1); /* the one that waited goes on behind it */
     *p->last = (uint16_t)(number + 1);
     p->last = &frame_record(p->t, number)->next;
-    p->painted_count++;
+    if (p->bands.words != NULL) {
+        face_bounds_t scratch;
+        bands_set(&p->bands, place, bounds_of(p, number, &scratch), false);
+    }
     p->places[place] = PAINTED;
 }
 
@@ -353,22 +385,41 @@ static void permute(const painter_t *p, uint32_t first, uint32_t end, uint32_t p
 
 size_t painter_room_bytes(uint32_t records) { return sizeof(uint16_t) * ((size_t)records + 1); }
 
+/* Bounds and bands, where there is room: they leave a quarter of the rest to records and the other three to slots. */
+static void bounds_keep(painter_t *p, uint8_t *room) {
+    tuile_t *t = p->t;
+    const uint32_t places = p->count + p->count / 4 + 32;
+    const size_t free_bytes = (size_t)((uint8_t *)p->places - room);
+    const size_t bounds_bytes = p->bounded * sizeof *p->bounds, wanted = bounds_bytes + bands_bytes(places);
+    if (free_bytes < wanted + 8) { return; }
+    p->bounds = (face_bounds_t *)(void *)(room + (free_bytes - wanted) / 4 * 3 / 8 * 8);
+    p->bounds_end = (uint8_t *)p->bounds + wanted;
+    face_bounds_t all = {INT16_MAX, INT16_MAX, INT16_MIN, INT16_MIN, 0, 0};
+    for (uint32_t i = 0; i < p->bounded; i++) {
+        face_bounds_t *box = &p->bounds[i];
+        priority_bounds(t, frame_record(t, p->base + i), box);
+        all.left = box->left < all.left ? box->left : all.left;
+        all.top = box->top < all.top ? box->top : all.top;
+        all.right = box->right > all.right ? box->right : all.right;
+        all.bottom = box->bottom > all.bottom ? box->bottom : all.bottom;
+    }
+    bands_open(&p->bands, p->bounds + p->bounded, places, &all);
+}
+
 int painter_order(tuile_t *t, uint32_t first, uint32_t end) {
     size_t room_bytes;
     uint8_t *room = frame_room(t, &room_bytes);
-    painter_t p = {.t = t, .count = end - first, .base = first, .bounded = end - first, .last = NULL};
+    painter_t p = {.t = t, .count = end - first, .base = first, .bounded = end - first};
     const uint32_t before = t->record_count;
+    if (p.count == 0) { return FRAME_OK; }
     if (room_bytes < painter_room_bytes(p.count) || before >= MOST) { return FRAME_FULL; }
     p.places = (uint16_t *)(void *)frame_record(t, before - 1) - p.count;
     p.last = &p.painted;
-    const size_t free_bytes = (size_t)((uint8_t *)p.places - room), wanted = p.bounded * sizeof *p.bounds;
-    if (free_bytes >= wanted + 8) {
-        p.bounds = (face_bounds_t *)(void *)(room + (free_bytes - wanted) / 4 * 3 / 8 * 8); /* three quarters of the rest for slots */
-        for (uint32_t i = 0; i < p.bounded; i++) {
-            priority_bounds(t, frame_record(t, first + i), &p.bounds[i]);
-        }
-    }
+    bounds_keep(&p, room);
     sort(&p, first, end);
+    for (uint32_t place = 0; place < p.count && p.bands.words != NULL; place++) {
+        bands_set(&p.bands, place, &p.bounds[p.places[place] - first], true);
+    }
     while (p.first < p.count) {
         if (p.places[p.first] == PAINTED) {
             p.first++;
@@ -387,7 +438,7 @@ int painter_order(tuile_t *t, uint32_t first, uint32_t end) {
 
 static int painter_gather(tuile_t *t) {
     int result = bin_pass(t);
-    if (result == FRAME_OK && t->record_count > 0) { result = painter_order(t, 0, t->record_count); }
+    if (result == FRAME_OK) { result = painter_order(t, 0, t->record_count); }
     if (result == FRAME_OK) { bin_again(t, t->pass_first); }
     return result;
 }

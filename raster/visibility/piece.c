@@ -190,12 +190,12 @@ static int piece_make(tuile_t *t, record_t *record, const source_t *source, cons
         }
         if ((value_a > 0 && value_b < 0) || (value_a < 0 && value_b > 0)) {
             if (take(t, 1, end) == NULL) { return FRAME_FULL; }
-            ring[count++] = value_a > 0 ? crossing(a, value_a, b, value_b, &source->plane)
-                                        : crossing(b, value_b, a, value_a, &source->plane);
+            ring[count++] =
+                value_a > 0 ? crossing(a, value_a, b, value_b, &source->plane) : crossing(b, value_b, a, value_a, &source->plane);
         }
     }
-    *piece = (piece_slot_t){source->bounds, source->face.v0, source->face.d1, source->face.d2, source->number, cuts,
-                            (uint16_t)count, {0, 0, 0}};
+    *piece = (piece_slot_t){source->bounds, source->face.v0, source->face.d1, source->face.d2, source->number,
+                            cuts,           (uint16_t)count, {0, 0, 0}};
     bounds_shrink(&piece->bounds, ring, count);
     record->v0 = (uint16_t)((vertex_t *)(void *)piece - t->vertices);
     record->d1 = 0;
@@ -232,13 +232,13 @@ int piece_cut(tuile_t *t, uint32_t number, uint32_t added, const face_bounds_t *
     return result;
 }
 
-int piece_cut_at(tuile_t *t, uint32_t number, uint32_t added, const face_bounds_t *bounds, int axis, int32_t at, uint16_t own_number,
-                 const uint8_t *end) {
+int piece_cut_at(tuile_t *t, uint32_t number, uint32_t added, const face_bounds_t *bounds, int axis, int32_t at,
+                 uint16_t own_number, const uint8_t *end) {
     record_t *record = frame_record(t, number);
     source_t source;
     source_open(&source, t, record, bounds, own_number);
-    const bool planar = face_plane(t, &source.face, &source.plane) >= 0 && absolute(source.plane.dx) <= STEEP &&
-                        absolute(source.plane.dy) <= STEEP;
+    const bool planar =
+        face_plane(t, &source.face, &source.plane) >= 0 && absolute(source.plane.dx) <= STEEP && absolute(source.plane.dy) <= STEEP;
     const int64_t one = (int64_t)1 << 20, line = -(int64_t)at * (1 << 20);
     const side_t high = {line, axis ? 0 : one, axis ? one : 0, !planar}, low = {-line, axis ? 0 : -one, axis ? -one : 0, !planar};
     const face_bounds_t whole = *bounds;

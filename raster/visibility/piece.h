@@ -49,7 +49,7 @@ int piece_cut(tuile_t *t, uint32_t number, uint32_t added, const face_bounds_t *
               bool wins_tie, const uint8_t *end);
 
 /* The same along a line between pixels: columns (axis 0) or rows (axis 1) below `at`, and the others. */
-int piece_cut_at(tuile_t *t, uint32_t number, uint32_t added, const face_bounds_t *bounds, int axis, int32_t at, uint16_t own_number,
-                 const uint8_t *end);
+int piece_cut_at(tuile_t *t, uint32_t number, uint32_t added, const face_bounds_t *bounds, int axis, int32_t at,
+                 uint16_t own_number, const uint8_t *end);
 
 #endif

@@ -67,8 +67,7 @@ static void polygon_open(priority_face_t *face, const polygon_ring_t *ring) {
     int64_t best = 0, off = 0;
     for (uint32_t i = 1; i + 1 < ring->count; i++) {
         const vertex_t *v1 = polygon_ring_vertex(ring, i), *v2 = polygon_ring_vertex(ring, i + 1);
-        const int64_t area =
-            absolute((int64_t)(v2->x - v0->x) * (v1->y - v0->y) - (int64_t)(v1->x - v0->x) * (v2->y - v0->y));
+        const int64_t area = absolute((int64_t)(v2->x - v0->x) * (v1->y - v0->y) - (int64_t)(v1->x - v0->x) * (v2->y - v0->y));
         if (area > best) {
             best = area;
             best1 = v1;

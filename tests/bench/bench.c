@@ -4,10 +4,11 @@
  * i * 360 / 64 degrees and moved to (0, 0, -3); one directional light along (-0.4, -0.6, -1), ambient 0.15, diffuse 0.75. A model
  * whose bounding sphere is not about 1 in radius is centred and scaled to 1, and the output says so.
  *
- * Usage: bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT flat|gouraud MEMORY_BYTES
+ * Usage: bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT flat|gouraud MEMORY_BYTES [METHOD]
  */
 #include "../../raster/tuile.h"
 #include "../../sim/mesh/mesh.h"
+#include "../../sim/options.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -54,8 +55,8 @@ static void place(tuile_instance_t *instance, const tuile_model_t *model, unsign
 }
 
 int main(int count, char **arguments) {
-    if (count != 8) {
-        (void)fprintf(stderr, "bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT flat|gouraud MEMORY_BYTES\n");
+    if (count != 8 && count != 9) {
+        (void)fprintf(stderr, "bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT flat|gouraud MEMORY_BYTES [METHOD]\n");
         return 2;
     }
     sim_error_t error = {""};
@@ -74,6 +75,9 @@ int main(int count, char **arguments) {
     config.tile_width = (uint16_t)atoi(arguments[4]);
     config.tile_height = (uint16_t)atoi(arguments[5]);
     config.shade = strcmp(arguments[6], "gouraud") == 0 ? TUILE_GOURAUD : TUILE_FLAT;
+    for (int m = 0; count == 9 && options_methods[m] != NULL; m++) {
+        if (strcmp(arguments[8], options_methods[m]) == 0) { config.method = (uint8_t)m; }
+    }
     config.cluster_vertices = model.cluster_vertices_max;
     config.corners = model.corners_max;
     const size_t memory = (size_t)atol(arguments[7]);
@@ -98,7 +102,7 @@ int main(int count, char **arguments) {
     scene.camera.near = 65536;
     scene.camera.far = 655360;
 
-    unsigned faces = 0, setup = 0, passes = 0, vertices = 0, peak = 0;
+    unsigned faces = 0, setup = 0, passes = 0, vertices = 0, peak = 0, compared = 0, moved = 0, splits = 0;
     for (unsigned frame = 0; frame < 64; frame += 64 / FRAMES) {
         tuile_stats_t stats;
         place(&instance, &model, frame);
@@ -111,10 +115,16 @@ int main(int count, char **arguments) {
         setup += stats.faces_setup;
         vertices += stats.vertices;
         passes += stats.passes;
+        compared += stats.compared;
+        moved += stats.moved;
+        splits += stats.splits;
         peak = stats.peak_bytes > peak ? stats.peak_bytes : peak;
     }
     (void)printf("faces %u frames %u setup %u vertices %u passes %u peak %u\n", faces, FRAMES, setup / FRAMES, vertices / FRAMES,
                  passes, peak);
+    if (config.method == TUILE_PAINTER) {
+        (void)printf("compared %u moved %u splits %u\n", compared / FRAMES, moved / FRAMES, splits / FRAMES);
+    }
     free(block);
     free(bytes);
     return 0;

@@ -17,9 +17,9 @@ width=${size%x*} height=${size#*x}
 for model in "$@"; do
     for tile in $tiles; do
         for shade in flat gouraud; do
-            memory=${MEMORY:-4194304}
+            memory=${MEMORY:-4194304} method=${METHOD:-zbuffer}
             valgrind --tool=callgrind --callgrind-out-file="$out/callgrind.out" --collect-atstart=no --toggle-collect=bench_frame \
-                --dump-line=no "$program" "$model" "$width" "$height" "${tile%x*}" "${tile#*x}" "$shade" "$memory" \
+                --dump-line=no "$program" "$model" "$width" "$height" "${tile%x*}" "${tile#*x}" "$shade" "$memory" "$method" \
                 >"$out/run.txt" 2>"$out/valgrind.txt" || { cat "$out/run.txt" "$out/valgrind.txt" >&2; exit 1; }
             faces=$(awk '/^faces/ { print $2 }' "$out/run.txt")
             frames=$(awk '/^faces/ { print $4 }' "$out/run.txt")
@@ -57,7 +57,7 @@ done
 awk 'BEGIN { printf "%-10s %-9s %-8s %-8s %7s %12s %10s %10s %10s %10s %10s\n", "model", "window", "tile", "shade", "faces",
              "instructions", "vertex", "setup", "span", "clear", "resolve" }
      { printf "%-10s %-9s %-8s %-8s %7d %12d %10d %10d %10d %10d %10d\n", $1, $2 "x" $3, $4, $5, $6, $7, $8, $9, $10, $11, $12 }' "$rows"
-awk 'BEGIN { print "[" }
-     { printf "%s  {\"target\": \"x86-64\", \"model\": \"%s\", \"width\": %d, \"height\": %d, \"tile\": \"%s\", \"method\": \"zbuffer\", \"shade\": \"%s\", \"faces\": %d, \"instructions\": %d, \"phases\": {\"vertex\": %d, \"setup\": %d, \"span\": %d, \"clear\": %d, \"resolve\": %d}}",
-       (NR > 1 ? ",\n" : ""), $1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12 }
+awk -v method="${METHOD:-zbuffer}" 'BEGIN { print "[" }
+     { printf "%s  {\"target\": \"x86-64\", \"model\": \"%s\", \"width\": %d, \"height\": %d, \"tile\": \"%s\", \"method\": \"%s\", \"shade\": \"%s\", \"faces\": %d, \"instructions\": %d, \"phases\": {\"vertex\": %d, \"setup\": %d, \"span\": %d, \"clear\": %d, \"resolve\": %d}}",
+       (NR > 1 ? ",\n" : ""), $1, $2, $3, $4, method, $5, $6, $7, $8, $9, $10, $11, $12 }
      END { print "\n]" }' "$rows" >"$out/bench.json"
