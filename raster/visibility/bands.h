@@ -1,5 +1,5 @@
-/* Which of many boxes may meet a given one, 32 of them at a time: the window is divided into 16 bands of rows and 16 of columns, and
- * each band has a bit for each box that reaches into it. Boxes are known by their places in a list.
+/* Which of many boxes may meet a given one, 32 of them at a time: the window is divided into 16 bands of rows and 16 of columns,
+ * and each band has a bit for each box that reaches into it. Boxes are known by their places in a list.
  */
 #ifndef TUILE_VISIBILITY_BANDS_H
 #define TUILE_VISIBILITY_BANDS_H
@@ -23,7 +23,8 @@ TUILE_INLINE size_t bands_bytes(uint32_t places) { return (size_t)(places + 31) 
 /* Sets or clears a box. */
 void bands_set(const bands_t *bands, uint32_t place, const face_bounds_t *box, bool set);
 
-/* Places behind `at` move up by one; the one behind it gets what `at` has. count: places so far; there must be room for one more. */
+/* Places behind `at` move up by one; the one behind it gets what `at` has. count: places so far; there must be room for one more.
+ */
 void bands_insert(const bands_t *bands, uint32_t at, uint32_t count);
 
 /* Of the 32 places from 32 * word on: those whose boxes share a band with this one in both ways. */
