@@ -1,11 +1,13 @@
-/* The parts of the painter's algorithm by hand: which of two faces is painted first, pieces of faces, orders of a range of records, and
- * the bands that tell which boxes may meet. */
+/* The parts of the painter's algorithm by hand: which of two faces is painted first, pieces of faces, orders of a range of records,
+ * and the bands that tell which boxes may meet. */
 #include "support/check.h"
 #include "support/random.h"
 
 #include "../raster/visibility/bands.h"
 #include "../raster/visibility/painter.h"
 #include "../raster/visibility/priority.h"
+
+#include <math.h>
 
 /* A pass made by hand: vertices from the beginning of the block, records from its end. */
 typedef struct pass {
@@ -60,8 +62,8 @@ static uint32_t add_quad(pass_t *pass, const vertex_t corners[4]) {
 }
 
 static uint32_t add_rectangle(pass_t *pass, int left, int top, int right, int bottom, int depth_left, int depth_right) {
-    const vertex_t corners[4] = {corner(left, top, depth_left), corner(left, bottom, depth_left), corner(right, bottom, depth_right),
-                                 corner(right, top, depth_right)};
+    const vertex_t corners[4] = {corner(left, top, depth_left), corner(left, bottom, depth_left),
+                                 corner(right, bottom, depth_right), corner(right, top, depth_right)};
     return add_quad(pass, corners);
 }
 
@@ -112,7 +114,8 @@ static void a_face_behind_another_at_all_depths_is_first(void **state) {
     expect_pair(&pass, far, near, PRIORITY_FREE, PRIORITY_AFTER);
 }
 
-/* Depths overlap: 100 ... 500 and 250 ... 280. Over x = 0 ... 10 the slanted one has 100 ... 200, over 30 ... 40 it has 400 ... 500. */
+/* Depths overlap: 100 ... 500 and 250 ... 280. Over x = 0 ... 10 the slanted one has 100 ... 200, over 30 ... 40 it has 400 ...
+ * 500. */
 static void a_face_behind_the_plane_of_another_is_first(void **state) {
     pass_t pass;
     (void)state;
@@ -221,8 +224,9 @@ static void pieces_share_no_pixel_and_leave_none_out(void **state) {
                 const uint32_t added = pass.t.record_count++;
                 const uint8_t *end = (const uint8_t *)frame_record(&pass.t, added);
                 const int result =
-                    k < 3 ? piece_cut(&pass.t, number, added, &bounds, frame_record(&pass.t, others[k]), 0, true, end)
-                          : piece_cut_at(&pass.t, number, added, &bounds, (int)(round % 2), (bounds.left + bounds.right) / 2, 0, end);
+                    k < 3
+                        ? piece_cut(&pass.t, number, added, &bounds, frame_record(&pass.t, others[k]), 0, true, end)
+                        : piece_cut_at(&pass.t, number, added, &bounds, (int)(round % 2), (bounds.left + bounds.right) / 2, 0, end);
                 assert_int_equal(result, FRAME_OK);
             }
         }
@@ -288,6 +292,111 @@ static void a_cut_without_room_is_full(void **state) {
     }
 }
 
+/* ---- pairs that lie close together ---- */
+
+/* A plane, z in 1/256 step at points in sixteenths of a pixel. */
+typedef struct slope {
+    double z, dx, dy;
+} slope_t;
+
+/* A corner of the plane that was somewhere else before it was snapped. */
+static vertex_t snapped(random_source_t *random, const slope_t *slope) {
+    const double x = random_real(random, -64, 1088), y = random_real(random, -64, 1088);
+    const double z = slope->z + slope->dx * x + slope->dy * y;
+    return (vertex_t){(int16_t)lround(x), (int16_t)lround(y),
+                      (uint32_t)lround(z < 512        ? 512
+                                       : z > 16000000 ? 16000000
+                                                      : z)
+                              << 8 |
+                          9};
+}
+
+static uint32_t random_face(pass_t *pass, random_source_t *random, const slope_t *slope) {
+    for (;;) {
+        vertex_t v[4];
+        for (unsigned i = 0; i < 4; i++) {
+            v[i] = snapped(random, slope);
+        }
+        const bool area = (v[2].x - v[0].x) * (v[1].y - v[0].y) - (v[1].x - v[0].x) * (v[2].y - v[0].y) != 0;
+        if (area) { return random_one_in(random, 2) ? add_quad(pass, v) : add_triangle(pass, v[0], v[1], v[2]); }
+    }
+}
+
+typedef struct drawn {
+    inside_t inside;
+    depth_plane_t plane;
+} drawn_t;
+
+/* The pixels of a record and the plane that a z-buffer follows. */
+static void draw(const pass_t *pass, uint32_t number, drawn_t *drawn) {
+    const record_t *record = frame_record(&pass->t, number), whole = frame_record_face(&pass->t, record);
+    polygon_chain_t chains[4];
+    uint8_t list[3];
+    const polygon_ring_t ring = piece_ring(&pass->t, &whole, list);
+    memset(drawn, 0, sizeof *drawn);
+    polygon_coverage(&ring, 64, 64, chains, 4, mark, &drawn->inside);
+    if (frame_record_is_triangle(&whole)) {
+        const vertex_t *v0 = &pass->t.vertices[whole.v0];
+        triangle_plane(v0, v0 + whole.d1, v0 + whole.d2, &drawn->plane);
+    } else {
+        (void)polygon_plane(&ring, &drawn->plane);
+    }
+    for (int32_t y = 0; y < 64 && frame_record_is_piece(record); y++) {
+        uint32_t mask[PIECE_MASK_WORDS];
+        piece_mask(&pass->t, record, y, 0, 64, mask);
+        for (int32_t x = 0; x < 64; x++) {
+            drawn->inside.pixel[y][x] &= (uint8_t)piece_mask_bit(mask, x);
+        }
+    }
+}
+
+/* What is told of two faces agrees with each pixel of both. */
+static void expect_pixels(const pass_t *pass, uint32_t p, uint32_t q, unsigned round) {
+    static drawn_t a, b;
+    const priority_t priority = compare(pass, p, q);
+    draw(pass, p, &a);
+    draw(pass, q, &b);
+    for (int32_t y = 0; y < 64; y++) {
+        for (int32_t x = 0; x < 64; x++) {
+            if (!a.inside.pixel[y][x] || !b.inside.pixel[y][x]) { continue; }
+            const uint16_t depth_a = depth_at(&a.plane, x, y), depth_b = depth_at(&b.plane, x, y);
+            const bool seen = depth_a > depth_b || (depth_a == depth_b && p < q);
+            if (seen ? priority == PRIORITY_FREE : priority == PRIORITY_AFTER) {
+                fail_msg("round %u, pixel %d,%d: depths %u and %u, but %s", round, x, y, depth_a, depth_b,
+                         seen ? "p is said to hide nothing" : "p is said to be nearer");
+            }
+        }
+    }
+}
+
+/* Planes that differ by a few steps, flat and steep, corners off them by snapping; whole faces and pieces of them. */
+static void pairs_agree_with_every_pixel(void **state) {
+    random_source_t random = random_seed(21);
+    (void)state;
+    for (unsigned round = 0; round < CHECK_ROUNDS(6000); round++) {
+        const double steep = round % 3 == 0 ? 1 : round % 3 == 1 ? 30 : 3000;
+        const slope_t one = {8e6, random_real(&random, -steep, steep), random_real(&random, -steep, steep)},
+                      other = {one.z + random_real(&random, -900, 900), one.dx + random_real(&random, -1, 1), one.dy},
+                      across = {one.z, -one.dx, random_real(&random, -steep, steep)};
+        pass_t pass;
+        pass_open(&pass);
+        const uint32_t p = random_face(&pass, &random, &one), q = random_face(&pass, &random, &other),
+                       by = random_face(&pass, &random, &across);
+        expect_pixels(&pass, p, q, round);
+        expect_pixels(&pass, q, p, round);
+        face_bounds_t bounds;
+        priority_bounds(&pass.t, frame_record(&pass.t, p), &bounds);
+        if (bounds.left >= bounds.right || bounds.top >= bounds.bottom) { continue; }
+        const uint32_t added = pass.t.record_count++;
+        assert_int_equal(piece_cut(&pass.t, p, added, &bounds, frame_record(&pass.t, by), (uint16_t)p, true,
+                                   (const uint8_t *)frame_record(&pass.t, added)),
+                         FRAME_OK);
+        expect_pixels(&pass, p, q, round);
+        expect_pixels(&pass, q, p, round);
+        expect_pixels(&pass, p, by, round);
+    }
+}
+
 /* ---- orders ---- */
 
 /* Records 1 ... 4 of six are put in order, which cuts two of them; the others stay, those behind moved up. */
@@ -319,9 +428,10 @@ static void any_order_is_one_from_back_to_front(void **state) {
         pass_t pass;
         pass_open(&pass);
         for (unsigned k = 0; k < 25; k++) { /* flat ones: there are no cycles and no crossings, and some ties */
-            const int left = random_between(&random, 0, 40), top = random_between(&random, 0, 40), depth = random_between(&random, 2, 30);
-            (void)add_rectangle(&pass, left, top, left + random_between(&random, 1, 20), top + random_between(&random, 1, 20), depth,
-                                depth);
+            const int left = random_between(&random, 0, 40), top = random_between(&random, 0, 40),
+                      depth = random_between(&random, 2, 30);
+            (void)add_rectangle(&pass, left, top, left + random_between(&random, 1, 20), top + random_between(&random, 1, 20),
+                                depth, depth);
         }
         assert_int_equal(painter_order(&pass.t, 0, 25), FRAME_OK);
         assert_int_equal(pass.t.record_count, 25);
@@ -335,7 +445,10 @@ static void any_order_is_one_from_back_to_front(void **state) {
                 const polygon_ring_t other = frame_record_ring(&pass.t, later);
                 const vertex_t *a = ring.vertices, *b = other.vertices; /* corners 0 and 2 are opposite */
                 const bool meet = a[0].x < b[2].x && b[0].x < a[2].x && a[0].y < b[2].y && b[0].y < a[2].y;
-                if (meet) { assert_true(a->depth_light < b->depth_light || (a->depth_light == b->depth_light && record->material > later->material)); }
+                if (meet) {
+                    assert_true(a->depth_light < b->depth_light ||
+                                (a->depth_light == b->depth_light && record->material > later->material));
+                }
             }
         }
         assert_int_equal(seen, (1u << 25) - 1);
@@ -358,8 +471,12 @@ static void bands_tell_all_boxes_that_meet(void **state) {
     (void)state;
     for (unsigned round = 0; round < CHECK_ROUNDS(64); round++) {
         static uint32_t memory[4 * 32];
-        const face_bounds_t all = {(int16_t)random_between(&random, 0, 100), (int16_t)random_between(&random, 0, 100),
-                                   (int16_t)random_between(&random, 101, 1024), (int16_t)random_between(&random, 101, 1024), 0, 0};
+        const face_bounds_t all = {(int16_t)random_between(&random, 0, 100),
+                                   (int16_t)random_between(&random, 0, 100),
+                                   (int16_t)random_between(&random, 101, 1024),
+                                   (int16_t)random_between(&random, 101, 1024),
+                                   0,
+                                   0};
         face_bounds_t boxes[128];
         uint32_t count = 0;
         bands_t bands;
@@ -414,6 +531,7 @@ int main(void) {
         cmocka_unit_test(pieces_share_no_pixel_and_leave_none_out),
         cmocka_unit_test(a_piece_is_on_its_side_of_the_face_that_cut_it),
         cmocka_unit_test(a_cut_without_room_is_full),
+        cmocka_unit_test(pairs_agree_with_every_pixel),
         cmocka_unit_test(a_range_of_records_is_put_in_order),
         cmocka_unit_test(any_order_is_one_from_back_to_front),
         cmocka_unit_test(bands_tell_all_boxes_that_meet),

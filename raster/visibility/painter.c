@@ -234,7 +234,7 @@ static void choose_line(const painter_t *p, split_t *how) {
 }
 
 /* P and the face in `place`, which waits, are ends of a cycle. */
-static int cut_cycle(painter_t *p, uint32_t place, const priority_face_t *head, const priority_face_t *face, bool *going) {
+static int cut_cycle(painter_t *p, uint32_t place, priority_face_t *head, priority_face_t *face, bool *going) {
     split_t how = {.axis = -1};
     if (priority_straddles(p->t, head, face)) {
         how.place = p->head;

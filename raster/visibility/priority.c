@@ -88,27 +88,33 @@ void priority_open(priority_face_t *face, const tuile_t *t, uint32_t number) {
     const record_t *record = frame_record(t, number);
     face->record = record;
     face->number = (uint16_t)number;
-    face->slack = 0;
+    face->slack = face->area = 0;
     face->empty = false;
     face->is_piece = frame_record_is_piece(record);
-    if (TUILE_LIKELY(frame_record_is_triangle(record))) {
-        const vertex_t *v0 = &t->vertices[record->v0];
-        face->whole = *record;
-        face->ring = piece_ring(t, record, face->list);
-        plane_through(face, v0, v0 + record->d1, v0 + record->d2);
-        return;
-    }
     face->whole = frame_record_face(t, record);
     face->ring = piece_ring(t, &face->whole, face->list);
-    polygon_open(face, &face->ring); /* of a triangle, too, this is its plane */
-    if (face->is_piece && !face->empty) {
+    if (face->is_piece) {
         const piece_slot_t *piece = frame_record_piece(t, record);
         face->number = piece->number;
         face->ring = (polygon_ring_t){(const vertex_t *)(piece + 1), NULL, NULL, piece->count};
         face->empty = piece->count == 0;
-        /* Corners were rounded by half a unit, and pixels may be one beyond. */
-        face->slack += 2 * ((absolute(face->nx) + absolute(face->ny)) / face->area + 1);
     }
+}
+
+/* Planes are made when they are first wanted. */
+static void plane_open(priority_face_t *face, const tuile_t *t) {
+    if (face->area != 0 || face->empty) { return; }
+    if (TUILE_LIKELY(frame_record_is_triangle(face->record))) {
+        const vertex_t *v0 = &t->vertices[face->record->v0];
+        plane_through(face, v0, v0 + face->record->d1, v0 + face->record->d2);
+        return;
+    }
+    uint8_t list[3];
+    const polygon_ring_t ring = piece_ring(t, &face->whole, list);
+    polygon_open(face, &ring); /* of a triangle, too, this is its plane */
+    if (face->empty) { return; }
+    /* Corners of a piece were rounded by half a unit, and pixels may be one beyond. */
+    if (face->is_piece) { face->slack += 2 * ((absolute(face->nx) + absolute(face->ny)) / face->area + 1); }
     face->slack = face->slack > SLACK_MAX ? SLACK_MAX : face->slack;
 }
 
@@ -194,6 +200,14 @@ static bool span_next(const polygon_ring_t *ring, polygon_cursor_t *cursor, int3
     return true;
 }
 
+/* A row of the box that can tell nothing new: p is surely on one side of q all along, and that side is known. */
+static bool row_is_known(const contest_t *contest, int32_t y, const face_bounds_t *box) {
+    const duel_t *duel = &contest->duel;
+    const int64_t first = duel->z + duel->dx * box->left + duel->dy * y, last = first + duel->dx * (box->right - 1 - box->left);
+    return (contest->sides == BEFORE && first >= duel->band && last >= duel->band) ||
+           (contest->sides == BEHIND && first <= -duel->band && last <= -duel->band);
+}
+
 /* On which sides of q's pixels p's pixels are, among those in the box. */
 static unsigned sides_of_pixels(const tuile_t *t, const priority_face_t *p, const priority_face_t *q, const face_bounds_t *box) {
     contest_t contest = {.t = t, .p = p, .q = q, .sides = 0};
@@ -203,6 +217,7 @@ static unsigned sides_of_pixels(const tuile_t *t, const priority_face_t *p, cons
     for (int32_t y = box->top; y < box->bottom && contest.sides != (BEFORE | BEHIND); y++) {
         polygon_cursor_t p_cursor = {0, 0, false};
         int32_t p_from, p_to, q_from, q_to;
+        if (row_is_known(&contest, y, box)) { continue; }
         while (span_next(&p_ring, &p_cursor, y, &p_from, &p_to)) {
             polygon_cursor_t q_cursor = {0, 0, false};
             p_from = p_from > box->left ? p_from : box->left;
@@ -238,20 +253,24 @@ static priority_t priority_of(unsigned sides) {
     return sides == (BEFORE | BEHIND) ? PRIORITY_CROSSED : sides == BEFORE ? PRIORITY_AFTER : PRIORITY_FREE;
 }
 
-priority_t priority_compare(const tuile_t *t, const priority_face_t *p, const face_bounds_t *p_bounds, const priority_face_t *q,
+priority_t priority_compare(const tuile_t *t, priority_face_t *p, const face_bounds_t *p_bounds, priority_face_t *q,
                             const face_bounds_t *q_bounds) {
     if (p->empty || q->empty || p->number == q->number) { return PRIORITY_FREE; } /* pieces of one face share no pixel */
     const unsigned by_p = side_by_cut(t, p, q), by_q = side_by_cut(t, q, p);
     if (by_p == BEHIND || by_q == BEFORE) { return PRIORITY_FREE; }
+    /* Of the faces whose boxes meet most are neighbours in a mesh, which no plane parts but a side does: so that comes first. */
+    if (parted_by_side(p, q) || parted_by_side(q, p)) { return PRIORITY_FREE; }
     bool surely_before = by_p || by_q || p_bounds->far > q_bounds->near + PRIORITY_MARGIN;
     if (!surely_before) {
+        plane_open(p, t);
+        plane_open(q, t);
+        if (p->empty || q->empty) { return PRIORITY_FREE; }
         const unsigned p_sides = sides_of_plane(p, q);
         if (p_sides == BEHIND) { return PRIORITY_FREE; }
         const unsigned q_sides = sides_of_plane(q, p);
         if (q_sides == BEFORE) { return PRIORITY_FREE; }
         surely_before = p_sides == BEFORE || q_sides == BEHIND;
     }
-    if (parted_by_side(p, q) || parted_by_side(q, p)) { return PRIORITY_FREE; }
     const face_bounds_t box = {p_bounds->left > q_bounds->left ? p_bounds->left : q_bounds->left,
                                p_bounds->top > q_bounds->top ? p_bounds->top : q_bounds->top,
                                p_bounds->right < q_bounds->right ? p_bounds->right : q_bounds->right,
@@ -263,7 +282,9 @@ priority_t priority_compare(const tuile_t *t, const priority_face_t *p, const fa
     return priority_of(sides_of_pixels(t, p, q, &box));
 }
 
-bool priority_straddles(const tuile_t *t, const priority_face_t *face, const priority_face_t *plane) {
+bool priority_straddles(const tuile_t *t, priority_face_t *face, priority_face_t *plane) {
     const unsigned both = BEFORE | BEHIND;
-    return !side_by_cut(t, face, plane) && (sides_of_plane(face, plane) & both) == both;
+    plane_open(face, t);
+    plane_open(plane, t);
+    return !face->empty && !plane->empty && !side_by_cut(t, face, plane) && (sides_of_plane(face, plane) & both) == both;
 }

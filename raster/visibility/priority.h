@@ -19,11 +19,11 @@ typedef struct priority_face {
     record_t whole;      /* the record of the face that a piece is of */
     uint16_t number;     /* decides ties */
     bool is_piece;       /* its pixels lie within one unit of the ring's hull, not inside */
-    bool empty;          /* has no area */
+    bool empty;          /* has no area, as far as is known */
     polygon_ring_t ring; /* what is compared: of a piece its own */
     uint8_t list[3];
     int32_t x0, y0, z0;
-    int64_t nx, ny, area; /* (z - z0) area = nx (x - x0) + ny (y - y0); area > 0 */
+    int64_t nx, ny, area; /* (z - z0) area = nx (x - x0) + ny (y - y0); area > 0, or 0: not made yet */
     int64_t slack;        /* by how much depths of its pixels may be off the plane, 1/256 step */
 } priority_face_t;
 
@@ -43,11 +43,11 @@ typedef enum priority {
 } priority_t;
 
 /* p's boxes meet q's. */
-priority_t priority_compare(const tuile_t *t, const priority_face_t *p, const face_bounds_t *p_bounds, const priority_face_t *q,
+priority_t priority_compare(const tuile_t *t, priority_face_t *p, const face_bounds_t *p_bounds, priority_face_t *q,
                             const face_bounds_t *q_bounds);
 
 /* Corners of `face` lie on both sides of the plane, and `face` was not cut by it. */
-bool priority_straddles(const tuile_t *t, const priority_face_t *face, const priority_face_t *plane);
+bool priority_straddles(const tuile_t *t, priority_face_t *face, priority_face_t *plane);
 
 /* Of two equally deep faces p is seen. */
 TUILE_INLINE bool priority_wins_tie(const tuile_t *t, uint32_t p, uint32_t q) {
