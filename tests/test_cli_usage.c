@@ -66,7 +66,7 @@ static void options_out_of_range_are_refused_by_name(void **state) {
         {"--clock", "fast"},
         {"--clock", "2000M"},
         {"--clock", "-1"},
-        {"--method", "painter"},
+        {"--method", "bsp"},
         {"--shade", "phong"},
         {"--memory", "much"},
         {"--memory", "-1"},
