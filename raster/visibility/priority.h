@@ -3,7 +3,7 @@
  *
  * Tests on corners are exact: a plane through three corners on the grid, the depth of a fourth, times the area: below 2^58. They
  * are trusted where two faces are more than two steps apart, by which the depths that a z-buffer compares (rounded, 16 bits) cannot
- * change their order any more. They and the test of projections save time only. Where they are nearer, or on both sides of one
+ * change their order any more; they and the test of projections save time only. Where faces are nearer, or on both sides of one
  * another, the pixels that both cover decide. So a face is painted after another one exactly if it is seen there, and the picture
  * is the z-buffer's.
  */
