@@ -253,7 +253,8 @@ typedef struct tuile tuile_t;
  * TUILE_ERROR_MEMORY when size_bytes is less. */
 int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, size_t size_bytes, size_t *wanted_bytes);
 
-/* After TUILE_ERROR_MEMORY from tuile_begin or tuile_next: the size of a block that would have been enough there, in bytes. */
+/* After TUILE_ERROR_MEMORY from tuile_begin or tuile_next: the size of a block that would have been enough there, in bytes. Where
+ * the painter's method cuts faces, how often cannot be foreseen: a larger size to be tried next. */
 size_t tuile_wanted(const tuile_t *renderer);
 
 /* The configuration in force, with every default filled in. */
@@ -301,7 +302,7 @@ typedef struct tuile_stats {
     uint32_t windows_depth;    /* the greatest number of divisions that led to one, */
     uint32_t windows_pixels;   /* how many were one pixel in the end and decided as such, */
     uint32_t windows_waiting;  /* and the most that were on the stack at once */
-    uint32_t compared;         /* painter: pairs of faces looked at, */
+    uint32_t compared;         /* painter: pairs of faces compared, of those whose boxes and depths overlap, */
     uint32_t moved;            /* faces moved before another, */
     uint32_t splits;           /* and cut because they cross or overlap in a cycle */
     uint32_t nodes;            /* tree: nodes visited */

@@ -33,9 +33,11 @@ typedef struct depth_plane {
     uint32_t low, high;
 } depth_plane_t;
 
-/* |x|, |y| <= 2048. For pixels of the face this is the very depth that its tested spans compare. */
+/* |x|, |y| <= 2048. For pixels of the face this is the very depth that its tested spans compare. Modulo 2^64, since a sliver's
+ * gradients are beyond all bounds where the sliver is not. */
 TUILE_INLINE uint16_t depth_at(const depth_plane_t *plane, int32_t x, int32_t y) {
-    const int64_t z = plane->z + plane->dx * x + plane->dy * y;
+    const int64_t z =
+        (int64_t)((uint64_t)plane->z + (uint64_t)plane->dx * (uint64_t)(int64_t)x + (uint64_t)plane->dy * (uint64_t)(int64_t)y);
     return (uint16_t)((z < plane->low ? plane->low : z > plane->high ? plane->high : (uint32_t)z) >> 16);
 }
 

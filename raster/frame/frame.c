@@ -32,6 +32,7 @@ static const visibility_method_t *method_of(uint8_t number) {
     case TUILE_ZBUFFER: return METHOD(TUILE_ZBUFFER, visibility_zbuffer);
     case TUILE_SCANLINE: return METHOD(TUILE_SCANLINE, visibility_scanline);
     case TUILE_WARNOCK: return METHOD(TUILE_WARNOCK, visibility_warnock);
+    case TUILE_PAINTER: return METHOD(TUILE_PAINTER, visibility_painter);
     case TUILE_TREE: return METHOD(TUILE_TREE, visibility_tree);
     default: return NULL;
     }

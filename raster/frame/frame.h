@@ -24,7 +24,7 @@
 #define RECORD_NONE 0 /* `next` holds a record's number + 1 */
 
 /* v0 is the slot of a topmost vertex, d1 and d2 lead from it to the others, in counter-clockwise order. d1 = 0: v0 is the slot of a
- * polygon_slot_t. */
+ * polygon_slot_t, or, with d2 = 1, of a piece_slot_t. */
 typedef struct record {
     uint16_t next;
     uint16_t v0;
@@ -46,6 +46,33 @@ typedef struct polygon_slot {
     uint16_t listed, unused;
 } polygon_slot_t;
 _Static_assert(sizeof(vertex_t) == 8 && sizeof(polygon_slot_t) == 8 && sizeof(record_t) == 8, "one slot");
+
+/* Where a face may be seen: pixels left ... right - 1, top ... bottom - 1; depths from far to near in 1/256 step, near the larger.
+ */
+typedef struct face_bounds {
+    int16_t left, top, right, bottom;
+    uint32_t far, near;
+} face_bounds_t;
+
+/* Heads a piece of a face that was cut (visibility/piece.h): those pixels of the face within `bounds` that all cuts keep. */
+typedef struct piece_slot {
+    face_bounds_t bounds; /* `far` is that of the whole face */
+    uint16_t v0;          /* v0, d1 and d2 of the face's record */
+    int8_t d1, d2;
+    uint16_t number; /* of the face's record before records were put in order: decides ties */
+    uint16_t cuts;   /* slot of the last cut, 0: none */
+    uint16_t count;  /* corners of the ring, whose hull holds the piece: the vertices behind this slot */
+    uint16_t unused[3];
+} piece_slot_t;
+
+/* Those pixels where the face that is cut is seen before this other face, or else those where it is not. */
+typedef struct cut_slot {
+    uint16_t v0; /* of the other face's record */
+    int8_t d1, d2;
+    uint16_t next;           /* the cut before, 0: none */
+    uint8_t front, wins_tie; /* the side; whether the face that is cut is seen where both are equally deep */
+} cut_slot_t;
+_Static_assert(sizeof(piece_slot_t) == 32 && sizeof(cut_slot_t) == 8, "whole slots");
 
 enum { FRAME_OK = 0, FRAME_FULL = 1 }; /* FULL: the arena is; negative: tuile_error_t */
 
@@ -75,6 +102,7 @@ typedef struct visibility_method {
 extern const visibility_method_t visibility_zbuffer; /* visibility/zbuffer.c, and so on */
 extern const visibility_method_t visibility_scanline;
 extern const visibility_method_t visibility_warnock;
+extern const visibility_method_t visibility_painter;
 extern const visibility_method_t visibility_tree;
 
 typedef struct tuile {
@@ -209,6 +237,24 @@ void trace_face(tuile_t *t, uint32_t number);
 /* ---- record.c ---- */
 
 TUILE_INLINE bool frame_record_is_triangle(const record_t *record) { return record->d1 != 0; }
+
+TUILE_INLINE bool frame_record_is_piece(const record_t *record) { return record->d1 == 0 && record->d2 != 0; }
+
+TUILE_INLINE const piece_slot_t *frame_record_piece(const tuile_t *t, const record_t *record) {
+    return (const piece_slot_t *)(const void *)&t->vertices[record->v0];
+}
+
+/* The record of the whole face, where record is that of a piece; else the same. */
+TUILE_INLINE record_t frame_record_face(const tuile_t *t, const record_t *record) {
+    record_t face = *record;
+    if (frame_record_is_piece(record)) {
+        const piece_slot_t *piece = frame_record_piece(t, record);
+        face.v0 = piece->v0;
+        face.d1 = piece->d1;
+        face.d2 = piece->d2;
+    }
+    return face;
+}
 
 /* The corners of a face of more than three. */
 polygon_ring_t frame_record_ring(const tuile_t *t, const record_t *record);

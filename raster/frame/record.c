@@ -8,6 +8,12 @@ polygon_ring_t frame_record_ring(const tuile_t *t, const record_t *record) {
 
 void frame_record_rows(const tuile_t *t, const record_t *record, int32_t *first, int32_t *end) {
     int32_t top, bottom;
+    if (frame_record_is_piece(record)) {
+        const face_bounds_t *bounds = &frame_record_piece(t, record)->bounds;
+        *first = bounds->top;
+        *end = bounds->bottom;
+        return;
+    }
     if (frame_record_is_triangle(record)) {
         const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
         top = v0->y;

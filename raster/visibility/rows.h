@@ -30,11 +30,17 @@ static inline uint32_t face_value(const tuile_t *t, const record_t *record) {
     return resolve_lit(t->config.format, frame_material(t, record->material), record->light);
 }
 
-/* False when the face covers no row from `row` on. */
-TUILE_INLINE bool state_start(tuile_t *t, state_t *state, const record_t *record, uint32_t number, int32_t row, bool tested) {
+/* Pieces of faces (piece.h), for painted rows only. The states are those of the whole face. */
+bool piece_start(tuile_t *t, state_t *state, const record_t *record, uint32_t number, int32_t row);
+bool piece_fill(tuile_t *t, state_t *state, const record_t *record);
+bool piece_skip(const tuile_t *t, state_t *state, const record_t *record, int32_t row);
+
+/* `face` has the corners, `record` the rest. */
+TUILE_INLINE bool face_start(tuile_t *t, state_t *state, const record_t *face, const record_t *record, uint32_t number, int32_t row,
+                             bool tested) {
     t->stats.faces_setup++;
-    if (TUILE_LIKELY(frame_record_is_triangle(record))) {
-        const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+    if (TUILE_LIKELY(frame_record_is_triangle(face))) {
+        const vertex_t *v0 = &t->vertices[face->v0], *v1 = v0 + face->d1, *v2 = v0 + face->d2;
         if (tested) {
             triangle_start(&state->triangle, v0, v1, v2, row, t->span_kind == SPAN_GOURAUD);
         } else {
@@ -43,7 +49,7 @@ TUILE_INLINE bool state_start(tuile_t *t, state_t *state, const record_t *record
         state->head.size_bytes = (sizeof(triangle_t) + 7u) & ~7u;
         state->triangle.value = t->span_kind == SPAN_GOURAUD ? record->material : face_value(t, record);
     } else {
-        const polygon_ring_t ring = frame_record_ring(t, record);
+        const polygon_ring_t ring = frame_record_ring(t, face);
         if (!(tested ? polygon_start(&state->polygon, &ring, row) : polygon_paint_start(&state->polygon, &ring, row))) {
             return false;
         }
@@ -52,6 +58,12 @@ TUILE_INLINE bool state_start(tuile_t *t, state_t *state, const record_t *record
     }
     state->head.record = (uint16_t)number;
     return true;
+}
+
+/* False when the face covers no row from `row` on. */
+TUILE_INLINE bool state_start(tuile_t *t, state_t *state, const record_t *record, uint32_t number, int32_t row, bool tested) {
+    if (!tested && TUILE_UNLIKELY(frame_record_is_piece(record))) { return piece_start(t, state, record, number, row); }
+    return face_start(t, state, record, record, number, row, tested);
 }
 
 /* Draws what of the face lies in the tile. True when the face reaches below it. */
@@ -67,6 +79,7 @@ TUILE_INLINE bool state_fill(tuile_t *t, state_t *state, const record_t *record,
         }
         return triangle->row < triangle->head.row_end;
     }
+    if (!tested && record->d2 != 0) { return piece_fill(t, state, record); }
     const polygon_ring_t ring = frame_record_ring(t, record);
     const span_kind_t kind = t->span_kind == SPAN_IDS ? SPAN_IDS : SPAN_FLAT;
     if (tested) {
@@ -77,15 +90,20 @@ TUILE_INLINE bool state_fill(tuile_t *t, state_t *state, const record_t *record,
     return state->polygon.row < state->head.row_end;
 }
 
-static inline bool state_skip(const tuile_t *t, state_t *state, int32_t row) {
-    const record_t *record = frame_record(t, state->head.record);
-    if (frame_record_is_triangle(record)) {
+TUILE_INLINE bool face_skip(const tuile_t *t, state_t *state, const record_t *face, int32_t row) {
+    if (frame_record_is_triangle(face)) {
         triangle_skip(&state->triangle, row);
         return state->triangle.row < state->head.row_end;
     }
-    const polygon_ring_t ring = frame_record_ring(t, record);
+    const polygon_ring_t ring = frame_record_ring(t, face);
     polygon_skip(&state->polygon, &ring, row);
     return state->polygon.row < state->head.row_end;
+}
+
+TUILE_INLINE bool state_skip(const tuile_t *t, state_t *state, int32_t row, bool tested) {
+    const record_t *record = frame_record(t, state->head.record);
+    if (!tested && TUILE_UNLIKELY(frame_record_is_piece(record))) { return piece_skip(t, state, record, row); }
+    return face_skip(t, state, record, row);
 }
 
 static inline bool state_in_columns(const tuile_t *t, const state_t *state) {
@@ -207,7 +225,7 @@ TUILE_INLINE void row_pass_by(tuile_t *t, int32_t top, int32_t bottom, bool test
     const record_t *record;
     walk_begin(t, &walk);
     while ((state = walk_next(t, &walk, &local, top, &record, tested)) != NULL) {
-        if (state_skip(t, state, bottom)) { walk_keep(t, &walk, state); }
+        if (state_skip(t, state, bottom, tested)) { walk_keep(t, &walk, state); }
     }
     walk_end(t, &walk);
 }
@@ -253,13 +271,13 @@ TUILE_INLINE void column_draw(tuile_t *t, int32_t top, bool tested) {
 }
 
 /* Behind the last column: states move on to the next row, in place. */
-static inline void row_advance(tuile_t *t, int32_t bottom) {
+TUILE_INLINE void row_advance(tuile_t *t, int32_t bottom, bool tested) {
     uint8_t *out = t->stream;
     for (uint8_t *at = t->stream; at < t->stream_end;) {
         state_t *state = (state_t *)(void *)at;
         const uint16_t size = state->head.size_bytes;
         at += size;
-        if (state->head.row_end > bottom && state_skip(t, state, bottom)) {
+        if (state->head.row_end > bottom && state_skip(t, state, bottom, tested)) {
             if ((uint8_t *)state != out) { memmove(out, state, size); }
             out += size;
         }
@@ -302,7 +320,7 @@ TUILE_INLINE void rows_draw_now(tuile_t *t, uint32_t number, bool tested) {
 TUILE_INLINE void rows_draw_tile(tuile_t *t, uint16_t row, bool tested) {
     while (t->row < row) {
         if (t->row_ready) {
-            row_advance(t, row_bottom(t, t->row));
+            row_advance(t, row_bottom(t, t->row), tested);
             t->row_ready = false;
         } else {
             row_pass_by(t, row_top(t, t->row), row_bottom(t, t->row), tested);

@@ -113,7 +113,7 @@ static bool polygon_begin(const tuile_t *t, sweep_t *sweep, face_t *face, const 
 }
 
 /* Links the face of a record in at its first row in the tile. */
-static TUILE_NOINLINE int face_start(tuile_t *t, sweep_t *sweep, uint32_t *link, uint32_t number, int32_t row) {
+static TUILE_NOINLINE int sweep_face_start(tuile_t *t, sweep_t *sweep, uint32_t *link, uint32_t number, int32_t row) {
     const record_t *record = frame_record(t, number);
     if (t->tile_columns > 1 && !in_columns(t, record)) { return FRAME_OK; }
     const uint32_t at = active_take(&sweep->pool, &sweep->free_faces, sizeof(face_t));
@@ -222,7 +222,7 @@ TUILE_INLINE int line_draw(tuile_t *t, sweep_t *sweep, const line_t *line, int32
         if (TUILE_UNLIKELY(newcomer != RECORD_NONE) && (at == 0 || newcomer - 1 < face->record)) {
             const uint32_t number = newcomer - 1;
             newcomer = frame_record(t, number)->next;
-            const int result = face_start(t, sweep, link, number, row);
+            const int result = sweep_face_start(t, sweep, link, number, row);
             if (result != FRAME_OK) { return result; }
             continue;
         }

@@ -16,6 +16,7 @@
 
 #include "arrange.h"
 #include "paint.h"
+#include "painter.h"
 
 #include "../geometry/tree.h"
 
@@ -169,6 +170,7 @@ static int draw_instance(tuile_t *t, unsigned number) {
 
 static int tree_gather(tuile_t *t) {
     const unsigned count = t->scene->instance_count;
+    bool grouped = false;
     bin_begin(t);
     for (unsigned i = 0; i < count;) {
         unsigned end = i + 1;
@@ -181,9 +183,14 @@ static int tree_gather(tuile_t *t) {
             const int result = end - i > 1 ? bin_instance(t, number) : draw_instance(t, number);
             if (result != FRAME_OK) { return result; }
         }
-        (void)first;
+        if (end - i > 1) {
+            const int result = painter_order(t, first, t->record_count);
+            if (result != FRAME_OK) { return result; }
+            grouped = true;
+        }
         i = end;
     }
+    if (grouped) { bin_again(t, t->pass_first); } /* their records have moved */
     return FRAME_OK;
 }
 

@@ -325,7 +325,7 @@ static void subdivide(subdivision_t *s, const window_t *tile) {
 static void row_enter(tuile_t *t, uint16_t row) {
     while (!t->row_ready || t->row < row) {
         if (t->row_ready) {
-            row_advance(t, row_bottom(t, t->row));
+            row_advance(t, row_bottom(t, t->row), true);
             t->row++;
         }
         t->uncarried = list_merge(t, list_reverse(t, t->buckets[t->row]), t->uncarried);
