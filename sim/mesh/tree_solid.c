@@ -61,12 +61,16 @@ static bool trace(maker_t *m, const space_piece_t *piece) {
     return true;
 }
 
-static void reverse(maker_t *m) {
+static void reverse_order(maker_t *m) {
     for (size_t i = 0, j = m->count; i < j; i++) { /* the middle one meets itself */
         const rounded_t swap = m->outline[--j];
         m->outline[j] = m->outline[i];
         m->outline[i] = swap;
     }
+}
+
+static void reverse(maker_t *m) {
+    reverse_order(m);
     for (size_t i = 0; i < m->count; i++) {
         for (int k = 0; k < 3; k++) {
             m->outline[i].normal[k] = -m->outline[i].normal[k];
@@ -184,23 +188,55 @@ static bool emit_triangles(maker_t *m, const space_face_t *face, bool reversed, 
     return count >= 0;
 }
 
-/* Does some part of the outline turn the other way? Then a triangle of it does. */
-static bool crosses(maker_t *m, const int64_t normal[3], bool *crossing) {
-    const long count = mesh_triangulate((const int32_t(*)[3])m->points, m->count, m->triangles);
-    *crossing = count == 0;
-    for (long t = 0; t < count && !*crossing; t++) {
-        int32_t three[3][3];
-        int64_t turn[3];
-        for (int c = 0; c < 3; c++) {
-            memcpy(three[c], m->points[m->triangles[t][c]], sizeof three[c]);
-        }
-        solid_newell((const int32_t(*)[3])three, 3, turn);
-        /* Slivers may turn any way by rounding; what they cover is nothing. */
-        const double along =
-            (double)turn[0] * (double)normal[0] + (double)turn[1] * (double)normal[1] + (double)turn[2] * (double)normal[2];
-        *crossing = along < -1e-6 * sqrt(squares(turn) * squares(normal));
+typedef struct flat {
+    int64_t x, y; /* in 1/256 step: below 2^24 */
+} flat_t;
+
+static int turn(flat_t a, flat_t b, flat_t c) {
+    const int64_t area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); /* < 2^51 */
+    return (area > 0) - (area < 0);
+}
+
+static bool within(int64_t a, int64_t b, int64_t c) { return (a <= c && c <= b) || (b <= c && c <= a); }
+
+static bool on_side(flat_t a, flat_t b, flat_t p) { return turn(a, b, p) == 0 && within(a.x, b.x, p.x) && within(a.y, b.y, p.y); }
+
+/* Touching counts. */
+static bool sides_meet(flat_t a, flat_t b, flat_t c, flat_t d) {
+    if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0) { return true; }
+    return on_side(a, b, c) || on_side(a, b, d) || on_side(c, d, a) || on_side(c, d, b);
+}
+
+/* May some part of the outline turn the other way? Where no two sides cross or touch, none does. */
+static bool crosses(const maker_t *m, const int64_t normal[3]) {
+    int drop = 0;
+    for (int k = 1; k < 3; k++) {
+        if (llabs(normal[k]) > llabs(normal[drop])) { drop = k; }
     }
-    return count >= 0;
+    const int u = (drop + 1) % 3, v = (drop + 2) % 3;
+#define POINT(i) ((flat_t){m->points[(i) % m->count][u], m->points[(i) % m->count][v]})
+    for (size_t i = 0; i < m->count; i++) {
+        if (on_side(POINT(i), POINT(i + 1), POINT(i + 2)) || on_side(POINT(i + 1), POINT(i + 2), POINT(i))) { return true; }
+        for (size_t j = i + 2; j < m->count && (i > 0 || j + 1 < m->count); j++) {
+            if (sides_meet(POINT(i), POINT(i + 1), POINT(j), POINT(j + 1))) { return true; }
+        }
+    }
+#undef POINT
+    return false;
+}
+
+/* A piece of a face that crosses itself may be the part of it that turns the other way: it is turned round, since its side is told
+ * by how it turns. */
+static void turn_to(maker_t *m, const int64_t normal[3]) {
+    int64_t turned[3];
+    solid_newell((const int32_t(*)[3])m->points, m->count, turned);
+    const double along =
+        (double)turned[0] * (double)normal[0] + (double)turned[1] * (double)normal[1] + (double)turned[2] * (double)normal[2];
+    if (along >= 0) { return; }
+    reverse_order(m);
+    for (size_t i = 0; i < m->count; i++) {
+        memcpy(m->points[i], m->outline[i].at, sizeof m->points[i]);
+    }
 }
 
 /* Light is interpolated right on triangles and in fans only: what is lit unevenly and not convex becomes triangles. */
@@ -225,11 +261,11 @@ static bool make_faces(maker_t *m, const space_piece_t *piece, bool reversed, bo
             m->points[i][k] = m->outline[i].at[k];
         }
     }
+    turn_to(m, normal);
     bool convex = m->count == 3 || solid_convex((const int32_t(*)[3])m->points, m->count, normal);
     if (m->count <= MESH_CORNERS_MAX && (convex || face->even)) {
-        bool crossing = false;
-        if ((!convex && !crosses(m, normal, &crossing)) || !emit(m, face, reversed, NULL, m->count, convex)) { return false; }
-        m->out->faces[m->out->face_count - 1].crossing = crossing;
+        if (!emit(m, face, reversed, NULL, m->count, convex)) { return false; }
+        m->out->faces[m->out->face_count - 1].crossing = !convex && crosses(m, normal);
         return true;
     }
     return emit_triangles(m, face, reversed, normal);
