@@ -426,9 +426,17 @@ static void report_frame(const render_t *r, unsigned frame, const char *hash) {
         "     \"faces_clipped_away\": %u, \"faces_binned\": %u, \"faces_setup\": %u, \"faces_resumed\": %u,\n",
         s->faces_tested, s->faces_back, s->faces_degenerate, s->faces_outside, s->faces_clipped, s->faces_clipped_away,
         s->faces_binned, s->faces_setup, s->faces_resumed);
-    if (c->method == TUILE_WARNOCK) {
+    switch (c->method) {
+    case TUILE_SCANLINE: (void)fprintf(f, "     \"active_max\": %u,\n", s->active_max); break;
+    case TUILE_WARNOCK:
         (void)fprintf(f, "     \"windows\": %u, \"windows_depth\": %u, \"windows_pixels\": %u, \"windows_waiting\": %u,\n",
                       s->windows, s->windows_depth, s->windows_pixels, s->windows_waiting);
+        break;
+    case TUILE_PAINTER:
+        (void)fprintf(f, "     \"compared\": %u, \"moved\": %u, \"splits\": %u,\n", s->compared, s->moved, s->splits);
+        break;
+    case TUILE_TREE: (void)fprintf(f, "     \"nodes\": %u, \"instances_sorted\": %u,\n", s->nodes, s->instances_sorted); break;
+    default: break;
     }
     (void)fprintf(f,
                   "     \"passes\": %u, \"tiles\": %u, \"tiles_narrow\": %u, \"size_bytes\": %u, \"least_bytes\": %u, "
