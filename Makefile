@@ -60,7 +60,7 @@ define need
 	@mkdir -p $(@D) && touch $@
 endef
 
-.PHONY: golden help all demo test test-asan test-clang check bench size format format-check lint clean
+.PHONY: golden help all demo test test-asan test-clang check bench bench-methods size format format-check lint clean
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' Makefile | sed 's/:.*##/\t/' | expand -t 16
 
@@ -163,6 +163,31 @@ $(OBJ)/bench: $(OBJ)/tests/bench/bench.o $(SIM_LIB_OBJ) $(CORE_OBJ)
 
 bench: $(OBJ)/bench $(BUILD)/need/bench $(filter $(BUILD)/%,$(MODEL)) ## instructions per frame by callgrind; MODEL=FILE ... TILE=WxH ... SIZE=WxH
 	@sh tests/bench/bench.sh $(OBJ)/bench $(BUILD)/bench $(SIZE) $(TILE) -- $(MODEL)
+
+# Four scenes, each compiled without and with a display tree: NAME[@EYE@AT@FOV], model units.
+HOUSE := $(dir $(SPIDER))../IFC/AC14-FZK-Haus.ifc
+METHODS_SCENES := sphere spider room@0,1.2,1.7@0,1,0@70 house@17,8,10@6,2,-5@45
+METHODS_TILE ?= 320x24
+COMPARED := $(BUILD)/bench/methods
+COMPARED_MODELS := $(foreach n,sphere spider room house,$(COMPARED)/$(n).tuile $(COMPARED)/$(n)-tree.tuile)
+$(OBJ)/sphere: $(OBJ)/tests/bench/sphere.o
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ -lm -o $@
+$(HOUSE): $(SPIDER) ;
+$(COMPARED)/sphere.obj: $(OBJ)/sphere
+	@mkdir -p $(@D) && $< >$@
+$(COMPARED)/sphere.tuile $(COMPARED)/sphere-tree.tuile: $(COMPARED)/sphere.obj
+$(COMPARED)/spider.tuile $(COMPARED)/spider-tree.tuile: $(SPIDER)
+$(COMPARED)/room.tuile $(COMPARED)/room-tree.tuile: tests/models/room.obj
+$(COMPARED)/house.tuile $(COMPARED)/house-tree.tuile: $(HOUSE)
+$(COMPARED)/%-tree.tuile: $(TUILE)
+	@mkdir -p $(@D)
+	$(TUILE) mesh $(filter-out $(TUILE),$^) --tree -o $@ >/dev/null
+$(COMPARED)/%.tuile: $(TUILE)
+	@mkdir -p $(@D)
+	$(TUILE) mesh $(filter-out $(TUILE),$^) -o $@ >/dev/null
+
+bench-methods: $(OBJ)/bench $(BUILD)/need/bench $(COMPARED_MODELS) ## the five methods over four scenes: instructions, memory, overdraw, flash
+	@sh tests/bench/methods.sh $(OBJ)/bench $(COMPARED) $(COMPARED) $(SIZE) $(METHODS_TILE) $(METHODS_SCENES)
 
 size: $(CORE_OBJ) ## code size of each part, and that no part has data of its own
 	@size $(CORE_OBJ) | awk 'NR == 1 { print; next } { print; text += $$1; data += $$2; bss += $$3 } \

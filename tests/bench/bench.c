@@ -1,15 +1,20 @@
-/* What is counted by `make bench`: eight frames of a turning model, drawn by bench_frame, under callgrind.
+/* What is counted by `make bench` and `make bench-methods`: eight frames of a turning model, drawn by bench_frame, under callgrind.
  *
  * The scene: camera at the origin looking along -z, vertical field of view 45 degrees, near 1, far 10; the model turned about y by
- * i * 360 / 64 degrees and moved to (0, 0, -3); one directional light along (-0.4, -0.6, -1), ambient 0.15, diffuse 0.75. A model
- * whose bounding sphere is not about 1 in radius is centred and scaled to 1, and the output says so.
+ * i * 360 / 8 degrees and moved to (0, 0, -3); one directional light along (-0.4, -0.6, -1), ambient 0.15, diffuse 0.75. A model
+ * whose bounding sphere is not about 1 in radius is centred and scaled to 1, and the output says so. With EYE, AT and FOV (as of
+ * tuile render, model units) the camera stands there and the model turns about AT.
  *
- * Usage: bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT flat|gouraud MEMORY_BYTES [METHOD [VARIANT]]
- * METHOD as of tuile render, VARIANT: tuile_warnock_t, a number.
+ * The first frame is drawn twice more, and not counted: with a trace, for the pixels that its faces cover, and in a block of as
+ * many bytes as the figures say that it needs, to see that it does.
+ *
+ * Usage: bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT flat|gouraud MEMORY_BYTES [METHOD [VARIANT [EYE AT FOV]]]
+ * METHOD as of tuile render, VARIANT: tuile_warnock_t, a number. Exit code 3: the renderer does not have that method.
  */
 #include "../../raster/tuile.h"
 #include "../../sim/mesh/mesh.h"
 #include "../../sim/options.h"
+#include "../../sim/view.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,11 +22,12 @@
 #include <string.h>
 
 #define FRAMES 8
+#define EXIT_NO_METHOD 3
 
 /* Callgrind collects in here only; not static, so that its name stays. */
 int bench_frame(tuile_t *renderer, const tuile_scene_t *scene, tuile_stats_t *stats);
 
-__attribute__((noinline)) int bench_frame(tuile_t *renderer, const tuile_scene_t *scene, tuile_stats_t *stats) {
+static inline int frame(tuile_t *renderer, const tuile_scene_t *scene, tuile_stats_t *stats) {
     tuile_tile_t tile;
     int result = tuile_begin(renderer, scene);
     if (result) { return result; }
@@ -30,7 +36,18 @@ __attribute__((noinline)) int bench_frame(tuile_t *renderer, const tuile_scene_t
     return result;
 }
 
-static void place(tuile_instance_t *instance, const tuile_model_t *model, unsigned frame) {
+__attribute__((noinline)) int bench_frame(tuile_t *renderer, const tuile_scene_t *scene, tuile_stats_t *stats) {
+    return frame(renderer, scene, stats);
+}
+
+static int fail(const char *what) {
+    (void)fprintf(stderr, "bench: %s\n", what);
+    return 1;
+}
+
+/* ---- the scene ------------------------------------------------------------------------------------------------ */
+
+static void place(tuile_instance_t *instance, const tuile_model_t *model, unsigned number) {
     const double step = ldexp((double)model->step.mantissa, model->step.exponent), radius = step * model->radius;
     const bool as_it_is = radius > 0.5 && radius < 1.9;
     const double scale = as_it_is ? 1.0 : 1.0 / radius;
@@ -41,7 +58,7 @@ static void place(tuile_instance_t *instance, const tuile_model_t *model, unsign
     instance->model = model;
     instance->pose.scale = (tuile_scale_t){(uint32_t)ldexp(mantissa, 31), exponent - 31};
     if (as_it_is) { instance->pose.scale = TUILE_SCALE_ONE; }
-    tuile_rotation(instance->pose.rotation, 1, (bam16_t)(frame * 1024u));
+    tuile_rotation(instance->pose.rotation, 1, (bam16_t)(number * (65536u / FRAMES)));
     for (int i = 0; i < 3 && !as_it_is; i++) {
         centre[i] = scale * step * (model->offset[i] + (double)model->centre[i]);
     }
@@ -52,81 +69,179 @@ static void place(tuile_instance_t *instance, const tuile_model_t *model, unsign
         }
         instance->pose.translation[i] = TUILE_Q16(at);
     }
-    if (frame == 0 && !as_it_is) { (void)printf("scaled by %g\n", scale); }
+    if (number == 0 && !as_it_is) { (void)printf("scaled by %g\n", scale); }
 }
 
-int main(int count, char **arguments) {
-    if (count < 8 || count > 10) {
-        (void)fprintf(stderr, "bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT flat|gouraud MEMORY_BYTES [METHOD [VARIANT]]\n");
-        return 2;
-    }
-    sim_error_t error = {""};
-    uint8_t *bytes;
-    size_t size_bytes, wanted = 0;
-    mesh_report_t report;
-    tuile_model_t model;
-    tuile_t *renderer;
-    if (mesh_load(arguments[1], 0, NULL, &bytes, &size_bytes, &report, &error) != 0 ||
-        tuile_model_open(&model, bytes, size_bytes) != 0) {
-        (void)fprintf(stderr, "bench: %s\n", error.text);
-        return 1;
-    }
-    tuile_config_t config = {0};
-    config.width = (uint16_t)atoi(arguments[2]);
-    config.height = (uint16_t)atoi(arguments[3]);
-    config.tile_width = (uint16_t)atoi(arguments[4]);
-    config.tile_height = (uint16_t)atoi(arguments[5]);
-    config.shade = strcmp(arguments[6], "gouraud") == 0 ? TUILE_GOURAUD : TUILE_FLAT;
-    while (count > 8 && options_methods[config.method] && strcmp(options_methods[config.method], arguments[8]) != 0) {
-        config.method++;
-    }
-    config.warnock = (uint8_t)(count > 9 ? atoi(arguments[9]) : 0);
-    config.cluster_vertices = model.cluster_vertices_max;
-    config.corners = model.corners_max;
-    config.tree_depth = model.tree_depth;
-    const size_t memory = (size_t)atol(arguments[7]);
-    void *block = malloc(memory);
-    int result = block ? tuile_init(&renderer, &config, block, memory, &wanted) : TUILE_ERROR_MEMORY;
-    if (result) {
-        (void)fprintf(stderr, "bench: %s (wants %zu bytes)\n", tuile_error_text(result), wanted);
-        return 1;
-    }
-
+static void turntable(view_t *view, uint16_t width, uint16_t height) {
+    static const q16_16_t eye[3] = {0, 0, 0}, at[3] = {0, 0, -65536}, up[3] = {0, 65536, 0};
     const double length = sqrt(0.4 * 0.4 + 0.6 * 0.6 + 1.0);
-    const tuile_light_t light = {
+    tuile_camera_t *camera = &view->scene.camera;
+    memset(view, 0, sizeof *view);
+    view->light = (tuile_light_t){
         {(q2_14_t)lround(-0.4 / length * 16384), (q2_14_t)lround(-0.6 / length * 16384), (q2_14_t)lround(-1 / length * 16384)},
         191};
-    tuile_instance_t instance = {0};
-    tuile_scene_t scene = {.instances = &instance, .instance_count = 1, .lights = &light, .light_count = 1, .ambient = 38};
-    static const q16_16_t eye[3] = {0, 0, 0}, at[3] = {0, 0, -65536}, up[3] = {0, 65536, 0};
-    (void)tuile_camera_look_at(&scene.camera, eye, at, up);
-    scene.camera.focal_x = scene.camera.focal_y = tuile_focal_px(8192, config.height);
-    scene.camera.centre_x = config.width * 32768;
-    scene.camera.centre_y = config.height * 32768;
-    scene.camera.near = 65536;
-    scene.camera.far = 655360;
+    view->scene.instances = &view->instance;
+    view->scene.instance_count = 1;
+    view->scene.lights = &view->light;
+    view->scene.light_count = 1;
+    view->scene.ambient = 38;
+    (void)tuile_camera_look_at(camera, eye, at, up);
+    camera->focal_x = camera->focal_y = tuile_focal_px(8192, height);
+    camera->centre_x = width * 32768;
+    camera->centre_y = height * 32768;
+    camera->near = 65536;
+    camera->far = 655360;
+}
 
-    unsigned faces = 0, setup = 0, passes = 0, vertices = 0, peak = 0, windows = 0, pixels = 0;
-    for (unsigned frame = 0; frame < 64; frame += 64 / FRAMES) {
+static bool numbers(const char *text, double *out) { return sscanf(text, "%lf,%lf,%lf", &out[0], &out[1], &out[2]) == 3; }
+
+/* ---- the frames that are not counted -------------------------------------------------------------------------- */
+
+typedef struct cover {
+    unsigned width;
+    unsigned long covering; /* pixels of all faces */
+    unsigned long covered;  /* pixels that some face covers */
+    uint8_t *seen;
+} cover_t;
+
+static void on_span(void *context, unsigned row, unsigned first, unsigned end) {
+    cover_t *cover = context;
+    for (unsigned x = first; x < end; x++) {
+        uint8_t *seen = &cover->seen[(size_t)row * cover->width + x];
+        cover->covering++;
+        cover->covered += *seen == 0;
+        *seen = 1;
+    }
+}
+
+static int print_cover(const tuile_config_t *config, const tuile_scene_t *scene, void *block, size_t memory) {
+    cover_t cover = {.width = config->width, .seen = calloc(config->width, config->height)};
+    const tuile_trace_t trace = {.context = &cover, .span = on_span};
+    tuile_config_t traced = *config;
+    tuile_t *renderer;
+    traced.trace = &trace;
+    int result = cover.seen ? tuile_init(&renderer, &traced, block, memory, NULL) : TUILE_ERROR_MEMORY;
+    if (!result) { result = frame(renderer, scene, NULL); }
+    if (!result) { (void)printf("overdraw %.2f\n", cover.covered ? (double)cover.covering / (double)cover.covered : 0.0); }
+    free(cover.seen);
+    return result;
+}
+
+/* Passes of the frame in a block of so many bytes; negative: an error. */
+static int passes_with(const tuile_config_t *config, const tuile_scene_t *scene, void *block, size_t bytes) {
+    tuile_t *renderer;
+    tuile_stats_t stats;
+    int result = tuile_init(&renderer, config, block, bytes, NULL);
+    for (int i = 0; i < 2 && !result; i++) { /* the first frame finds out what fits */
+        result = frame(renderer, scene, &stats);
+    }
+    return result ? result : (int)stats.passes;
+}
+
+/* ---- the frames that are counted ------------------------------------------------------------------------------ */
+
+typedef struct bench {
+    tuile_config_t config;
+    tuile_model_t model;
+    view_t view;
+    bool aimed; /* by EYE, AT and FOV */
+    void *block;
+    size_t memory;
+} bench_t;
+
+static void turn(bench_t *b, unsigned number) {
+    if (b->aimed) {
+        view_frame(&b->view, number);
+    } else {
+        place(&b->view.instance, &b->model, number);
+    }
+}
+
+static int run(bench_t *b) {
+    const tuile_config_t *config = &b->config;
+    unsigned faces = 0, setup = 0, passes = 0, vertices = 0, peak = 0, least = 0, windows = 0, pixels = 0, splits = 0;
+    size_t wanted = 0, needs = 0;
+    tuile_t *renderer;
+    int result = tuile_init(&renderer, config, b->block, b->memory, &wanted);
+    if (result) {
+        (void)fprintf(stderr, "bench: %s (wants %zu bytes)\n", tuile_error_text(result), wanted);
+        return result == TUILE_ERROR_ARGUMENT ? EXIT_NO_METHOD : 1;
+    }
+    for (unsigned i = 0; i < FRAMES; i++) {
         tuile_stats_t stats;
-        place(&instance, &model, frame);
-        result = bench_frame(renderer, &scene, &stats);
-        if (result) {
-            (void)fprintf(stderr, "bench: %s\n", tuile_error_text(result));
-            return 1;
-        }
+        turn(b, i);
+        result = bench_frame(renderer, &b->view.scene, &stats);
+        if (result) { return fail(tuile_error_text(result)); }
         faces = stats.faces;
         setup += stats.faces_setup;
         vertices += stats.vertices;
         passes += stats.passes;
         windows += stats.windows;
         pixels += stats.windows_pixels;
+        splits += stats.splits;
+        least = stats.least_bytes;
+        if (i == 0) { needs = stats.peak_bytes > least ? stats.peak_bytes : least; }
         peak = stats.peak_bytes > peak ? stats.peak_bytes : peak;
     }
-    if (config.method == TUILE_WARNOCK) { (void)printf("windows %u pixels %u\n", windows / FRAMES, pixels / FRAMES); }
+    if (config->method == TUILE_WARNOCK) { (void)printf("windows %u pixels %u\n", windows / FRAMES, pixels / FRAMES); }
+    if (config->method == TUILE_PAINTER) { (void)printf("splits %u\n", splits / FRAMES); }
     (void)printf("faces %u frames %u setup %u vertices %u passes %u peak %u\n", faces, FRAMES, setup / FRAMES, vertices / FRAMES,
                  passes, peak);
-    free(block);
+    peak = peak > least ? peak : least;
+    const size_t colours = (size_t)(config->buffers ? config->buffers : 2) *
+                           TUILE_ALIGN64((size_t)TUILE_FORMAT_BYTES(config->format) * config->tile_width * config->tile_height);
+    (void)printf("beside %zu least %zu\n", peak - colours, least - colours); /* the buffers of colours */
+    turn(b, 0);
+    result = print_cover(config, &b->view.scene, b->block, b->memory);
+    if (result) { return fail(tuile_error_text(result)); }
+    result = passes_with(config, &b->view.scene, b->block, needs);
+    if (result > 1 && passes == FRAMES) { (void)printf("needs more than %zu: %d passes\n", needs, result); }
+    return result < 0 ? fail(tuile_error_text(result)) : 0;
+}
+
+int main(int count, char **arguments) {
+    if (count < 8 || count == 11 || count == 12 || count > 13) {
+        (void)fprintf(stderr, "bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT flat|gouraud MEMORY_BYTES "
+                              "[METHOD [VARIANT [EYE AT FOV]]]\n");
+        return 2;
+    }
+    static bench_t b;
+    sim_error_t error = {""};
+    uint8_t *bytes;
+    size_t size_bytes;
+    mesh_report_t report;
+    if (mesh_load(arguments[1], 0, NULL, &bytes, &size_bytes, &report, &error) != 0 ||
+        tuile_model_open(&b.model, bytes, size_bytes) != 0) {
+        return fail(error.text);
+    }
+    tuile_config_t *config = &b.config;
+    config->width = (uint16_t)atoi(arguments[2]);
+    config->height = (uint16_t)atoi(arguments[3]);
+    config->tile_width = (uint16_t)atoi(arguments[4]);
+    config->tile_height = (uint16_t)atoi(arguments[5]);
+    config->shade = strcmp(arguments[6], "gouraud") == 0 ? TUILE_GOURAUD : TUILE_FLAT;
+    while (count > 8 && options_methods[config->method] && strcmp(options_methods[config->method], arguments[8]) != 0) {
+        config->method++;
+    }
+    config->warnock = (uint8_t)(count > 9 ? atoi(arguments[9]) : 0);
+    config->cluster_vertices = b.model.cluster_vertices_max;
+    config->corners = b.model.corners_max;
+    config->tree_depth = b.model.tree_depth;
+    b.memory = (size_t)atol(arguments[7]);
+    b.block = malloc(b.memory);
+    if (!b.block) { return fail("out of memory"); }
+    b.aimed = count > 10;
+    if (b.aimed) {
+        view_options_t o = VIEW_OPTIONS_DEFAULT;
+        o.has_eye = o.has_at = true;
+        o.fov = atof(arguments[12]);
+        if (!numbers(arguments[10], o.eye) || !numbers(arguments[11], o.at)) { return fail("EYE and AT are three numbers each"); }
+        if (view_make(&b.view, &o, &b.model, config->width, config->height, FRAMES, &error) != 0) { return fail(error.text); }
+    } else {
+        turntable(&b.view, config->width, config->height);
+    }
+    const int status = run(&b);
+    free(b.block);
     free(bytes);
-    return 0;
+    return status;
 }

@@ -3,6 +3,7 @@
 # METHOD and VARIANT in the environment are handed on to the program.
 # Usage: bench.sh BENCH_PROGRAM OUTPUT_FOLDER WIDTHxHEIGHT TILE... -- MODEL...
 set -eu
+. "$(dirname "$0")/count.sh"
 program=$1 out=$2 size=$3
 shift 3
 tiles=
@@ -19,12 +20,10 @@ for model in "$@"; do
     for tile in $tiles; do
         for shade in flat gouraud; do
             memory=${MEMORY:-4194304}
-            valgrind --tool=callgrind --callgrind-out-file="$out/callgrind.out" --collect-atstart=no --toggle-collect=bench_frame \
-                --dump-line=no "$program" "$model" "$width" "$height" "${tile%x*}" "${tile#*x}" "$shade" "$memory" \
-                "${METHOD:-zbuffer}" "${VARIANT:-0}" \
-                >"$out/run.txt" 2>"$out/valgrind.txt" || { cat "$out/run.txt" "$out/valgrind.txt" >&2; exit 1; }
-            faces=$(awk '/^faces/ { print $2 }' "$out/run.txt")
-            frames=$(awk '/^faces/ { print $4 }' "$out/run.txt")
+            count "$out" "$program" "$model" "$width" "$height" "${tile%x*}" "${tile#*x}" "$shade" "$memory" \
+                "${METHOD:-zbuffer}" "${VARIANT:-0}"
+            faces=$(figure "$out" faces)
+            frames=$(figure "$out" frames)
             # Self cost of each function, summed by phase. The line after "calls=" is what the callee cost: not ours.
             awk -v frames="$frames" -v faces="$faces" -v model="$(basename "$model" | sed 's/\..*//')" -v tile="$tile" \
                 -v shade="$shade" -v width="$width" -v height="$height" '
