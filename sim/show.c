@@ -3,6 +3,7 @@
 #include "show.h"
 
 #include "options.h"
+#include "show_paint.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -141,52 +142,20 @@ static int draw(watch_t *w, const tuile_config_t *config, const tuile_scene_t *s
 
 /* ---- pictures ---------------------------------------------------------------------------------------------- */
 
-/* 0 ... 1 to black, blue, magenta, orange, white. */
-static void heat(double value, uint8_t rgb[3]) {
-    static const uint8_t stops[5][3] = {{8, 8, 24}, {32, 48, 160}, {176, 32, 128}, {248, 144, 24}, {255, 255, 224}};
-    const double at = value <= 0 ? 0 : value >= 1 ? 3.999 : value * 3.999;
-    const int i = (int)at;
-    for (int k = 0; k < 3; k++) {
-        rgb[k] = (uint8_t)(stops[i][k] + (at - i) * (stops[i + 1][k] - stops[i][k]));
-    }
-}
-
-static void put(const sim_picture_t *picture, unsigned x, unsigned y, const uint8_t rgb[3]) {
-    if (x < picture->width && y < picture->height) { memcpy(sim_picture_at(picture, x, y), rgb, 3); }
-}
-
-static void outline(const sim_picture_t *picture, unsigned zoom, unsigned left, unsigned top, unsigned right, unsigned bottom,
-                    const uint8_t rgb[3]) {
-    for (unsigned x = left * zoom; x < right * zoom; x++) {
-        put(picture, x, top * zoom, rgb);
-        put(picture, x, bottom * zoom - 1, rgb);
-    }
-    for (unsigned y = top * zoom; y < bottom * zoom; y++) {
-        put(picture, left * zoom, y, rgb);
-        put(picture, right * zoom - 1, y, rgb);
-    }
-}
-
-static void fill(const sim_picture_t *picture, unsigned zoom, unsigned x, unsigned y, const uint8_t rgb[3]) {
-    for (unsigned i = 0; i < zoom * zoom; i++) {
-        put(picture, x * zoom + i % zoom, y * zoom + i / zoom, rgb);
-    }
-}
-
 /* The frame, its light divided. */
-static void backdrop(const watch_t *w, const sim_picture_t *picture, unsigned zoom, unsigned divisor) {
+static void backdrop(const watch_t *w, const paint_t *p, unsigned divisor) {
     for (unsigned y = 0; y < w->height; y++) {
         for (unsigned x = 0; x < w->width; x++) {
             uint8_t rgb[3];
             for (unsigned k = 0; k < 3; k++) {
                 rgb[k] = (uint8_t)(w->rgb[3 * ((size_t)y * w->width + x) + k] / divisor);
             }
-            fill(picture, zoom, x, y, rgb);
+            paint_pixel(p, x, y, rgb);
         }
     }
 }
 
-static void show_overdraw(const watch_t *w, const sim_picture_t *picture, unsigned zoom, char *summary, size_t size) {
+static void show_overdraw(const watch_t *w, const paint_t *p, char *summary, size_t size) {
     uint64_t sum = 0, covered = 0;
     uint32_t most = 1;
     for (size_t i = 0; i < (size_t)w->width * w->height; i++) {
@@ -197,15 +166,31 @@ static void show_overdraw(const watch_t *w, const sim_picture_t *picture, unsign
     for (unsigned y = 0; y < w->height; y++) {
         for (unsigned x = 0; x < w->width; x++) {
             uint8_t rgb[3];
-            heat((double)w->cover[(size_t)y * w->width + x] / (most < 4 ? 4 : most), rgb);
-            fill(picture, zoom, x, y, rgb);
+            const size_t at = (size_t)y * w->width + x;
+            const bool border =
+                (x + 1 < w->width && w->ids[at] != w->ids[at + 1]) || (y + 1 < w->height && w->ids[at] != w->ids[at + w->width]);
+            paint_heat((double)w->cover[at] / (most < 4 ? 4 : most), rgb);
+            for (unsigned k = 0; border && k < 3; k++) { /* the faces seen, darker round their borders */
+                rgb[k] = (uint8_t)(rgb[k] / 2);
+            }
+            paint_pixel(p, x, y, rgb);
         }
+    }
+    for (uint32_t n = 0; n <= most && n < 10; n++) { /* the colours' meaning */
+        uint8_t rgb[3];
+        const unsigned left = 2 + 14 * n, top = w->height > 12 ? w->height - 11 : 0;
+        paint_heat((double)n / (most < 4 ? 4 : most), rgb);
+        for (unsigned i = 0; i < 13 * 9; i++) {
+            paint_pixel(p, left + i % 13, top + i / 13, rgb);
+        }
+        paint_outline(p, left, top, left + 13, top + 9, (const uint8_t[3]){160, 160, 160});
+        paint_number(p, left + 4, top + 1, n);
     }
     (void)snprintf(summary, size, "overdraw: %.2f faces a covered pixel, %u at most; %llu pixels drawn for %llu seen",
                    covered ? (double)sum / (double)covered : 0.0, most, (unsigned long long)sum, (unsigned long long)covered);
 }
 
-static void show_tiles(const watch_t *w, const sim_picture_t *picture, unsigned zoom, char *summary, size_t size) {
+static void show_tiles(const watch_t *w, const paint_t *p, char *summary, size_t size) {
     static const uint8_t line[3] = {96, 96, 96};
     uint32_t most = 1;
     uint64_t sum = 0;
@@ -216,22 +201,25 @@ static void show_tiles(const watch_t *w, const sim_picture_t *picture, unsigned 
     for (size_t i = 0; i < w->tile_count; i++) {
         const tile_t *tile = &w->tiles[i];
         uint8_t rgb[3];
-        heat((double)tile->faces / most, rgb);
-        for (unsigned y = tile->top * zoom; y < tile->bottom * zoom; y++) {
-            for (unsigned x = tile->left * zoom; x < tile->right * zoom; x++) {
-                uint8_t *at = sim_picture_at(picture, x, y);
+        paint_heat((double)tile->faces / most, rgb);
+        for (unsigned y = tile->top * p->zoom; y < tile->bottom * p->zoom; y++) {
+            for (unsigned x = tile->left * p->zoom; x < tile->right * p->zoom; x++) {
+                uint8_t *at = sim_picture_at(p->picture, x, y);
                 for (unsigned k = 0; k < 3; k++) {
                     at[k] = (uint8_t)((at[k] + rgb[k]) / 2);
                 }
             }
         }
-        outline(picture, zoom, tile->left, tile->top, tile->right, tile->bottom, line);
+        paint_outline(p, tile->left, tile->top, tile->right, tile->bottom, line);
+        if (tile->bottom - tile->top > (int)PAINT_NUMBER_HEIGHT && tile->right - tile->left > 13) {
+            paint_number(p, tile->left + 1u, tile->top + 1u, tile->faces);
+        }
     }
     (void)snprintf(summary, size, "tiles: %zu, with %.1f faces each, %u at most", w->tile_count,
                    w->tile_count ? (double)sum / (double)w->tile_count : 0.0, most);
 }
 
-static void show_edges(const watch_t *w, const sim_picture_t *picture, unsigned zoom, char *summary, size_t size) {
+static void show_edges(const watch_t *w, const paint_t *p, char *summary, size_t size) {
     static const uint8_t bar[3] = {248, 176, 40}, rule[3] = {64, 64, 64};
     uint32_t most = 1;
     uint64_t sum = 0;
@@ -239,28 +227,35 @@ static void show_edges(const watch_t *w, const sim_picture_t *picture, unsigned 
         most = w->edges[y] > most ? w->edges[y] : most;
         sum += w->edges[y];
     }
-    for (unsigned y = 0; y < w->height * zoom; y++) {
-        const unsigned length = (unsigned)((uint64_t)w->edges[y / zoom] * (PLOT_PX * zoom - 1) / most);
-        for (unsigned x = 0; x < PLOT_PX * zoom; x++) {
-            put(picture, w->width * zoom + x, y, x == 0 ? rule : x <= length ? bar : (const uint8_t[3]){16, 16, 16});
+    for (unsigned y = 0; y < w->height * p->zoom; y++) {
+        const unsigned length = (unsigned)((uint64_t)w->edges[y / p->zoom] * (PLOT_PX * p->zoom - 1) / most);
+        for (unsigned x = 0; x < PLOT_PX * p->zoom; x++) {
+            paint_point(p, w->width * p->zoom + x, y, x == 0 ? rule : x <= length ? bar : (const uint8_t[3]){16, 16, 16});
         }
+    }
+    for (unsigned n = 0; n <= most; n += most > 40 ? 20 : most > 12 ? 4 : 2) {
+        const unsigned x = w->width * p->zoom + (unsigned)((uint64_t)n * (PLOT_PX * p->zoom - 1) / most);
+        for (unsigned y = 0; y < w->height * p->zoom; y++) {
+            paint_point(p, x, y, rule);
+        }
+        paint_number(p, x / p->zoom, w->height, n);
     }
     (void)snprintf(summary, size, "active edges: %.1f a line, %u at most", (double)sum / w->height, most);
 }
 
-static void show_windows(const watch_t *w, const sim_picture_t *picture, unsigned zoom, char *summary, size_t size) {
+static void show_windows(const watch_t *w, const paint_t *p, char *summary, size_t size) {
     static const uint8_t colours[4][3] = {{72, 72, 88}, {72, 200, 96}, {64, 144, 255}, {0, 0, 0}}; /* tuile_why_t */
     unsigned count[4] = {0};
     for (size_t i = 0; i < w->window_count; i++) {
         const window_t *window = &w->windows[i];
         if (window->why == TUILE_WHY_PIXEL) { /* too many for outlines */
-            uint8_t *rgb = sim_picture_at(picture, window->left * zoom, window->top * zoom);
-            const uint8_t tint[3] = {(uint8_t)(64 + rgb[0] / 2), (uint8_t)(rgb[1] / 2), (uint8_t)(rgb[2] / 2)};
-            fill(picture, zoom, window->left, window->top, tint);
+            uint8_t *rgb = sim_picture_at(p->picture, window->left * p->zoom, window->top * p->zoom);
+            const uint8_t tint[3] = {(uint8_t)(160 + rgb[0] / 2), (uint8_t)(32 + rgb[1] / 2), (uint8_t)(32 + rgb[2] / 2)};
+            paint_pixel(p, window->left, window->top, tint);
             count[TUILE_WHY_PIXEL]++;
             continue;
         }
-        outline(picture, zoom, window->left, window->top, window->right, window->bottom, colours[window->why & 3]);
+        paint_outline(p, window->left, window->top, window->right, window->bottom, colours[window->why & 3]);
         count[window->why & 3]++;
     }
     (void)snprintf(summary, size, "windows: %u empty (grey), %u single (green), %u surrounded (blue), %u pixels (red)", count[0],
@@ -273,30 +268,67 @@ static bool is_cut(const watch_t *w, const tuile_model_t *model, size_t a, size_
     return w->ids[a] == w->ids[b] || tuile_model_source_face(model, w->ids[a] - 1) == tuile_model_source_face(model, w->ids[b] - 1);
 }
 
-static void show_order(const watch_t *w, const tuile_model_t *model, const sim_picture_t *picture, unsigned zoom, char *summary,
-                       size_t size, const tuile_stats_t *stats) {
+#define LABEL_PX 100u /* pixels of a face that its number is worth */
+
+/* Each face's number at the pixel seen of it that is nearest to the middle of all seen of it. */
+static bool number_faces(const watch_t *w, const paint_t *p) {
+    typedef struct seen {
+        uint64_t x, y, distance;
+        uint32_t count, nearest;
+    } seen_t;
+    seen_t *seen = calloc((size_t)w->number_max + 1, sizeof *seen);
+    if (!seen) { return false; }
+    for (uint32_t at = 0; at < w->width * w->height; at++) {
+        seen_t *face = &seen[w->last[at]];
+        face->x += at % w->width;
+        face->y += at / w->width;
+        face->count++;
+        face->distance = UINT64_MAX;
+    }
+    for (uint32_t at = 0; at < w->width * w->height; at++) {
+        seen_t *face = &seen[w->last[at]];
+        const int64_t x = (int64_t)(at % w->width) - (int64_t)(face->x / face->count),
+                      y = (int64_t)(at / w->width) - (int64_t)(face->y / face->count);
+        const uint64_t distance = (uint64_t)(x * x + y * y);
+        if (distance >= face->distance) { continue; }
+        face->distance = distance;
+        face->nearest = at;
+    }
+    for (uint32_t number = 1; number <= w->number_max; number++) {
+        const uint32_t x = seen[number].nearest % w->width, y = seen[number].nearest / w->width,
+                       half = paint_number_width(number) / 2;
+        if (seen[number].count < LABEL_PX) { continue; }
+        paint_number(p, x > half ? x - half : 0, y > 3 ? y - 3 : 0, number);
+    }
+    free(seen);
+    return true;
+}
+
+static bool show_order(const watch_t *w, const tuile_model_t *model, const paint_t *p, char *summary, size_t size,
+                       const tuile_stats_t *stats) {
     static const uint8_t white[3] = {255, 255, 255};
     for (unsigned y = 0; y < w->height; y++) {
         for (unsigned x = 0; x < w->width; x++) {
             uint8_t rgb[3] = {0, 0, 0};
             const size_t at = (size_t)y * w->width + x;
-            if (w->last[at]) { heat(0.1 + 0.8 * w->last[at] / w->number_max, rgb); }
-            fill(picture, zoom, x, y, rgb);
+            if (w->last[at]) { paint_heat(0.1 + 0.8 * w->last[at] / w->number_max, rgb); }
+            paint_pixel(p, x, y, rgb);
         }
     }
     for (unsigned y = 0; y + 1 < w->height; y++) {
         for (unsigned x = 0; x + 1 < w->width; x++) {
             const size_t at = (size_t)y * w->width + x;
             const bool right = is_cut(w, model, at, at + 1), down = is_cut(w, model, at, at + w->width);
-            for (unsigned i = 0; i < zoom; i++) {
-                if (right) { put(picture, (x + 1) * zoom - 1, y * zoom + i, white); }
-                if (down) { put(picture, x * zoom + i, (y + 1) * zoom - 1, white); }
+            for (unsigned i = 0; i < p->zoom; i++) {
+                if (right) { paint_point(p, (x + 1) * p->zoom - 1, y * p->zoom + i, white); }
+                if (down) { paint_point(p, x * p->zoom + i, (y + 1) * p->zoom - 1, white); }
             }
         }
     }
     (void)snprintf(summary, size,
                    "order: %u faces from back (dark) to front (bright), cuts in white; %u splits in this frame, %u tree nodes",
                    w->number_max, stats->splits, stats->nodes);
+    return number_faces(w, p);
 }
 
 /* ---- views ------------------------------------------------------------------------------------------------- */
@@ -353,14 +385,17 @@ int show_draw(const show_view_t *view, const tuile_config_t *config, const tuile
         const unsigned plot = view->kind == SHOW_EDGES ? PLOT_PX : 0;
         status = sim_picture_create(out, (w.width + plot) * zoom, w.height * zoom, error);
     }
+    const paint_t p = {out, zoom};
     if (!status) {
-        backdrop(&w, out, zoom, view->kind == SHOW_EDGES ? 1 : 2);
+        backdrop(&w, &p, view->kind == SHOW_EDGES ? 1 : 2);
         switch (view->kind) {
-        case SHOW_OVERDRAW: show_overdraw(&w, out, zoom, summary, summary_size); break;
-        case SHOW_TILES: show_tiles(&w, out, zoom, summary, summary_size); break;
-        case SHOW_EDGES: show_edges(&w, out, zoom, summary, summary_size); break;
-        case SHOW_WINDOWS: show_windows(&w, out, zoom, summary, summary_size); break;
-        case SHOW_ORDER: show_order(&w, model, out, zoom, summary, summary_size, &stats); break;
+        case SHOW_OVERDRAW: show_overdraw(&w, &p, summary, summary_size); break;
+        case SHOW_TILES: show_tiles(&w, &p, summary, summary_size); break;
+        case SHOW_EDGES: show_edges(&w, &p, summary, summary_size); break;
+        case SHOW_WINDOWS: show_windows(&w, &p, summary, summary_size); break;
+        case SHOW_ORDER:
+            if (!show_order(&w, model, &p, summary, summary_size, &stats)) { status = sim_fail(error, "out of memory"); }
+            break;
         }
     }
     free(block);
