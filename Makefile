@@ -60,7 +60,7 @@ define need
 	@mkdir -p $(@D) && touch $@
 endef
 
-.PHONY: golden help all demo test test-asan test-clang check bench bench-methods size format format-check lint clean
+.PHONY: golden help all demo test test-asan test-clang check bench bench-methods docs-pictures size format format-check lint clean
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' Makefile | sed 's/:.*##/\t/' | expand -t 16
 
@@ -188,6 +188,18 @@ $(COMPARED)/%.tuile: $(TUILE)
 
 bench-methods: $(OBJ)/bench $(BUILD)/need/bench $(COMPARED_MODELS) ## the five methods over four scenes: instructions, memory, overdraw, flash
 	@sh tests/bench/methods.sh $(OBJ)/bench $(COMPARED) $(COMPARED) $(SIZE) $(METHODS_TILE) $(METHODS_SCENES)
+
+# ---- pictures of docs/methods.md: one view of each method, from the inside of a room and of four beams -----------------
+PICTURES := docs/pictures
+ROOM_VIEW := --rotate 90 --eye 0,1.2,2.4 --at 0,1,0 --fov 70
+BEAMS_VIEW := --rotate 90 --eye 0.8,0.6,4.6 --at 0,0,0
+docs-pictures: $(TUILE) $(COMPARED)/room-tree.tuile ## draw the pictures of docs/methods.md anew; look at them before you commit them
+	@mkdir -p $(PICTURES)
+	$(TUILE) render tests/models/room.obj $(ROOM_VIEW) --show zbuffer-overdraw --out $(PICTURES)/zbuffer.png
+	$(TUILE) render tests/models/room.obj $(ROOM_VIEW) --show scanline-edges --out $(PICTURES)/scanline.png
+	$(TUILE) render tests/models/room.obj $(ROOM_VIEW) --show warnock-windows --out $(PICTURES)/warnock.png
+	$(TUILE) render tests/models/beams.obj $(BEAMS_VIEW) --show painter-order --out $(PICTURES)/painter.png
+	$(TUILE) render $(COMPARED)/room-tree.tuile $(ROOM_VIEW) --show tree-order --out $(PICTURES)/tree.png
 
 size: $(CORE_OBJ) ## code size of each part, and that no part has data of its own
 	@size $(CORE_OBJ) | awk 'NR == 1 { print; next } { print; text += $$1; data += $$2; bss += $$3 } \

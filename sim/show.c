@@ -38,22 +38,23 @@ typedef struct watch {
     size_t window_count, window_capacity;
 } watch_t;
 
-static bool reserve(void *array, size_t *capacity, size_t count, size_t item_bytes) {
-    void *old, *grown;
-    if (count <= *capacity) { return true; }
-    memcpy(&old, array, sizeof old);
-    grown = realloc(old, 2 * count * item_bytes);
-    if (!grown) { return false; }
-    memcpy(array, &grown, sizeof grown);
-    *capacity = 2 * count;
-    return true;
+/* The array with room for `count` items; NULL when there is none, and the array stays. */
+static void *reserve(void *array, size_t *capacity, size_t count, size_t item_bytes) {
+    if (count <= *capacity) { return array; }
+    void *grown = realloc(array, 2 * count * item_bytes);
+    if (grown) { *capacity = 2 * count; }
+    return grown;
 }
 
 static void on_tile(void *context, unsigned left, unsigned top, unsigned right, unsigned bottom) {
     watch_t *w = context;
     if (!w->counts || w->failed) { return; }
-    w->failed = !reserve(&w->tiles, &w->tile_capacity, w->tile_count + 1, sizeof *w->tiles);
-    if (!w->failed) { w->tiles[w->tile_count++] = (tile_t){(uint16_t)left, (uint16_t)top, (uint16_t)right, (uint16_t)bottom, 0}; }
+    tile_t *tiles = reserve(w->tiles, &w->tile_capacity, w->tile_count + 1, sizeof *w->tiles);
+    w->failed = !tiles;
+    if (tiles) {
+        w->tiles = tiles;
+        tiles[w->tile_count++] = (tile_t){(uint16_t)left, (uint16_t)top, (uint16_t)right, (uint16_t)bottom, 0};
+    }
 }
 
 static void on_face(void *context, uint32_t number, uint32_t id) {
@@ -79,9 +80,11 @@ static void on_span(void *context, unsigned row, unsigned first, unsigned end) {
 static void on_window(void *context, unsigned left, unsigned top, unsigned right, unsigned bottom, unsigned why) {
     watch_t *w = context;
     if (!w->counts || w->failed) { return; }
-    w->failed = !reserve(&w->windows, &w->window_capacity, w->window_count + 1, sizeof *w->windows);
-    if (!w->failed) {
-        w->windows[w->window_count++] = (window_t){(uint16_t)left, (uint16_t)top, (uint16_t)right, (uint16_t)bottom, (uint8_t)why};
+    window_t *windows = reserve(w->windows, &w->window_capacity, w->window_count + 1, sizeof *w->windows);
+    w->failed = !windows;
+    if (windows) {
+        w->windows = windows;
+        windows[w->window_count++] = (window_t){(uint16_t)left, (uint16_t)top, (uint16_t)right, (uint16_t)bottom, (uint8_t)why};
     }
 }
 
@@ -238,7 +241,7 @@ static void show_edges(const watch_t *w, const paint_t *p, char *summary, size_t
         for (unsigned y = 0; y < w->height * p->zoom; y++) {
             paint_point(p, x, y, rule);
         }
-        paint_number(p, x / p->zoom, w->height, n);
+        paint_number(p, w->width + n * (PLOT_PX - 1) / most, w->height, n);
     }
     (void)snprintf(summary, size, "active edges: %.1f a line, %u at most", (double)sum / w->height, most);
 }
@@ -370,7 +373,7 @@ int show_draw(const show_view_t *view, const tuile_config_t *config, const tuile
     watch_t w;
     const tuile_trace_t trace = {&w, on_tile, on_face, on_span, on_window};
     tuile_config_t c = *config;
-    tuile_stats_t stats;
+    tuile_stats_t stats = {0};
     void *block = malloc(BLOCK_BYTES);
     int status = watch_open(&w, config->width, config->height, error);
     if (!status && !block) { status = sim_fail(error, "out of memory"); }
