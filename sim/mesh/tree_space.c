@@ -250,6 +250,7 @@ bool space_open(space_t *space, const solid_t *solid) {
 
 void space_close(space_t *space) {
     void *owned[] = {space->planes,
+                     space->slacks,
                      space->points,
                      space->lines,
                      space->marks,
