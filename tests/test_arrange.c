@@ -246,7 +246,8 @@ static void what_is_drawn_before_hides_nothing_drawn_after(void **state) {
             }
         }
     }
-    assert_true(apart > 100 / (CHECK_SANITIZED ? 16 : 1) && grouped > 100 / (CHECK_SANITIZED ? 16 : 1) && hits > (CHECK_SANITIZED ? 60 : 1000));
+    assert_true(apart > 100 / (CHECK_SANITIZED ? 16 : 1) && grouped > 100 / (CHECK_SANITIZED ? 16 : 1) &&
+                hits > (CHECK_SANITIZED ? 60 : 1000));
 }
 
 int main(void) {
