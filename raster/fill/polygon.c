@@ -1,3 +1,5 @@
+#include "../tune.h"
+
 #include "polygon.h"
 
 typedef struct point {
@@ -269,8 +271,9 @@ static TUILE_NOINLINE void span_clamped(const polygon_t *polygon, const raster_t
     }
 }
 
-static void polygon_span(const polygon_t *polygon, const raster_tile_t *tile, int32_t row, int32_t from, int32_t to, bool tested,
-                         span_kind_t kind, bool last) {
+/* tested, kind and last are constants where this is called, so that each combination gets a loop of its own. */
+TUILE_INLINE void polygon_span(const polygon_t *polygon, const raster_tile_t *tile, int32_t row, int32_t from, int32_t to,
+                               bool tested, span_kind_t kind, bool last) {
     from = from < tile->left ? tile->left : from;
     to = to > tile->right ? tile->right : to;
     if (from >= to) { return; }
@@ -319,12 +322,29 @@ TUILE_INLINE void fill_rows(polygon_t *polygon, const polygon_ring_t *ring, cons
     }
 }
 
-void polygon_fill(polygon_t *polygon, const polygon_ring_t *ring, const raster_tile_t *tile, span_kind_t kind, bool last) {
+static TUILE_NOINLINE void fill_flat(polygon_t *polygon, const polygon_ring_t *ring, const raster_tile_t *tile) {
+    fill_rows(polygon, ring, tile, true, SPAN_FLAT, false);
+}
+
+static TUILE_NOINLINE void fill_any(polygon_t *polygon, const polygon_ring_t *ring, const raster_tile_t *tile, span_kind_t kind,
+                                    bool last) {
     fill_rows(polygon, ring, tile, true, kind, last);
 }
 
+void polygon_fill(polygon_t *polygon, const polygon_ring_t *ring, const raster_tile_t *tile, span_kind_t kind, bool last) {
+    if (kind == SPAN_FLAT && !last) {
+        fill_flat(polygon, ring, tile);
+    } else {
+        fill_any(polygon, ring, tile, kind, last);
+    }
+}
+
 void polygon_paint(polygon_t *polygon, const polygon_ring_t *ring, const raster_tile_t *tile, span_kind_t kind) {
-    fill_rows(polygon, ring, tile, false, kind, false);
+    if (kind == SPAN_FLAT) {
+        fill_rows(polygon, ring, tile, false, SPAN_FLAT, false);
+    } else {
+        fill_rows(polygon, ring, tile, false, SPAN_IDS, false);
+    }
 }
 
 void polygon_skip(polygon_t *polygon, const polygon_ring_t *ring, int32_t target) {

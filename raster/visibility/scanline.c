@@ -161,13 +161,9 @@ TUILE_INLINE void span_draw(const line_t *line, const face_t *face, int32_t from
 }
 
 /* Where the plane leaves the range of the polygon's corners, pixel by pixel. */
-static TUILE_NOINLINE void span_polygon(const line_t *line, const face_t *face, int32_t from, int32_t to, int64_t z,
+static TUILE_NOINLINE void span_clamped(const line_t *line, const face_t *face, int32_t from, int32_t to, int64_t z,
                                         span_kind_t kind, bool last) {
-    const int64_t low = face->low, high = face->high, dx = (int64_t)face->plane.dx, end = z + dx * (to - from - 1);
-    if (z >= low && z <= high && end >= low && end <= high) {
-        span_draw(line, face, from, to - from, (uint32_t)z, (uint32_t)dx, kind, last);
-        return;
-    }
+    const int64_t low = face->low, high = face->high, dx = (int64_t)face->plane.dx;
     for (; from < to; from++, z += dx) {
         span_draw(line, face, from, 1, (uint32_t)(z < low ? low : z > high ? high : z), 0, kind, last);
     }
@@ -185,7 +181,12 @@ TUILE_INLINE void sides_draw(tuile_t *t, const line_t *line, const face_t *face,
     if (to > line->right) { to = line->right; }
     if (from >= to) { return; }
     if (face->polygon) {
-        span_polygon(line, face, from, to, (int64_t)z, kind, last);
+        const int64_t end = (int64_t)z + (int64_t)face->plane.dx * (to - from - 1), low = face->low, high = face->high;
+        if (TUILE_LIKELY((int64_t)z >= low && (int64_t)z <= high && end >= low && end <= high)) {
+            span_draw(line, face, from, to - from, (uint32_t)z, (uint32_t)face->plane.dx, kind, last);
+        } else {
+            span_clamped(line, face, from, to, (int64_t)z, kind, last);
+        }
     } else if (kind == SPAN_GOURAUD) {
         const int32_t first = from - line->left;
         span_gouraud(line->depth + first, (uint16_t *)(void *)line->colour + first, to - from, z, face->plane.dx,
