@@ -117,7 +117,7 @@ static void check_seeds(const scene_generator_t *options, uint64_t first, unsign
     /* Were the reference to let everything pass, this would not. */
     print_message("%llu of %llu pixels differ, %llu beside cuts of the tree\n", (unsigned long long)differ,
                   (unsigned long long)pixels, (unsigned long long)beside);
-    assert_true(differ * 50 < pixels && beside * 1000 < pixels);
+    assert_true(differ * (CHECK_SANITIZED ? 10 : 50) < pixels && beside * 1000 < pixels);
 }
 
 static void random_orthographic_scenes_are_one_picture(void **state) {
