@@ -337,7 +337,7 @@ static void draw(const pass_t *pass, uint32_t number, drawn_t *drawn) {
     polygon_coverage(&ring, 64, 64, chains, 4, mark, &drawn->inside);
     if (frame_record_is_triangle(&whole)) {
         const vertex_t *v0 = &pass->t.vertices[whole.v0];
-        triangle_plane(v0, v0 + whole.d1, v0 + whole.d2, &drawn->plane);
+        triangle_planes(v0, v0 + whole.d1, v0 + whole.d2, &drawn->plane, NULL);
     } else {
         (void)polygon_plane(&ring, &drawn->plane);
     }

@@ -89,31 +89,47 @@ TUILE_INLINE void sides_start(triangle_t *t, bool bends_left, int32_t x0, int32_
     }
 }
 
-/* All but the sides. Of depth and light only those that are wanted. */
-TUILE_INLINE void shade_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t row,
-                              bool tested, bool gouraud) {
+typedef struct gradients {
+    gradient_t depth, light;
+} gradients_t;
+
+/* Of depth and light only those that are wanted. */
+TUILE_INLINE gradients_t gradients_of(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, bool is_short, bool tested,
+                                      bool gouraud) {
     const int32_t x0 = v0->x, y0 = v0->y, x1 = v1->x - x0, y1 = v1->y - y0, x2 = v2->x - x0, y2 = v2->y - y0;
     const int32_t area = x2 * y1 - x1 * y2, reciprocal = INT32_MAX / area;
-    const uint32_t depth0 = v0->depth_light >> 8;
-    const int32_t z1 = (int32_t)(v1->depth_light >> 8) - (int32_t)depth0, z2 = (int32_t)(v2->depth_light >> 8) - (int32_t)depth0;
-    const int32_t to_x = 8 - x0, to_y = 16 * row + 8 - y0;
-    const bool small = triangle->is_short && depths_near(z1, z2);
-    uint64_t shade = 0, dx = 0, dy = 0;
+    const int32_t z0 = (int32_t)(v0->depth_light >> 8), light0 = (int32_t)(v0->depth_light & 0xff);
+    const int32_t z1 = (int32_t)(v1->depth_light >> 8) - z0, z2 = (int32_t)(v2->depth_light >> 8) - z0;
+    const bool small = is_short && depths_near(z1, z2);
+    gradients_t g = {{0, 0}, {0, 0}};
     if (tested) {
-        const gradient_t depth =
-            small ? gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12) : gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
-        shade = shade_pack(((int64_t)depth0 << 8) + 0x8000 + gradient_part(depth, to_x & 15, to_y & 15), 0);
-        dx = shade_pack(depth.dx, 0), dy = shade_pack(depth.dy, 0);
+        g.depth = small ? gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12) : gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
     }
     if (gouraud) {
-        const uint32_t light0 = v0->depth_light & 0xff;
-        const int32_t l1 = (int32_t)(v1->depth_light & 0xff) - (int32_t)light0,
-                      l2 = (int32_t)(v2->depth_light & 0xff) - (int32_t)light0;
-        const gradient_t light =
-            small ? gradient_small(l1, l2, x1, y1, x2, y2, reciprocal, 28) : gradient_exact(l1, l2, x1, y1, x2, y2, area, 28);
-        shade += shade_pack(0, ((int64_t)light0 << 24) + 0x800000 + gradient_part(light, to_x & 15, to_y & 15));
-        dx += shade_pack(0, light.dx);
-        dy += shade_pack(0, light.dy);
+        const int32_t l1 = (int32_t)(v1->depth_light & 0xff) - light0, l2 = (int32_t)(v2->depth_light & 0xff) - light0;
+        g.light = small ? gradient_small(l1, l2, x1, y1, x2, y2, reciprocal, 28) : gradient_exact(l1, l2, x1, y1, x2, y2, area, 28);
+    }
+    return g;
+}
+
+/* Depth and light at v0, with the rounding half, as the gradients count them. */
+TUILE_INLINE int64_t depth_of(const vertex_t *v0) { return ((int64_t)(v0->depth_light >> 8) << 8) + 0x8000; }
+TUILE_INLINE int64_t light_of(const vertex_t *v0) { return ((int64_t)(v0->depth_light & 0xff) << 24) + 0x800000; }
+
+/* All but the sides. */
+TUILE_INLINE void shade_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t row,
+                              bool tested, bool gouraud) {
+    const int32_t to_x = 8 - v0->x, to_y = 16 * row + 8 - v0->y;
+    const gradients_t g = gradients_of(v0, v1, v2, triangle->is_short, tested, gouraud);
+    uint64_t shade = 0, dx = 0, dy = 0;
+    if (tested) {
+        shade = shade_pack(depth_of(v0) + gradient_part(g.depth, to_x & 15, to_y & 15), 0);
+        dx = shade_pack(g.depth.dx, 0), dy = shade_pack(g.depth.dy, 0);
+    }
+    if (gouraud) {
+        shade += shade_pack(0, light_of(v0) + gradient_part(g.light, to_x & 15, to_y & 15));
+        dx += shade_pack(0, g.light.dx);
+        dy += shade_pack(0, g.light.dy);
     }
     triangle->shade = shade + dx * (uint64_t)(int64_t)(to_x >> 4) + dy * (uint64_t)(int64_t)(to_y >> 4);
     triangle->dx = dx;
@@ -161,37 +177,18 @@ TUILE_INLINE int64_t gradient_origin(gradient_t g, int64_t c0, const vertex_t *v
                      (uint64_t)g.dy * (uint64_t)(to_y >> 4));
 }
 
-TUILE_INLINE void planes(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane, light_plane_t *lights) {
-    const int32_t x0 = v0->x, y0 = v0->y, x1 = v1->x - x0, y1 = v1->y - y0, x2 = v2->x - x0, y2 = v2->y - y0;
-    const int32_t area = x2 * y1 - x1 * y2, reciprocal = INT32_MAX / area;
-    const uint32_t depth0 = v0->depth_light >> 8;
-    const int32_t z1 = (int32_t)(v1->depth_light >> 8) - (int32_t)depth0, z2 = (int32_t)(v2->depth_light >> 8) - (int32_t)depth0;
-    const bool small = sides_short(v0, v1, v2) && depths_near(z1, z2);
-    const gradient_t depth =
-        small ? gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12) : gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
-    plane->dx = depth.dx;
-    plane->dy = depth.dy;
-    plane->z = gradient_origin(depth, ((int64_t)depth0 << 8) + 0x8000, v0);
+void triangle_planes(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane, light_plane_t *lights) {
+    const gradients_t g = gradients_of(v0, v1, v2, sides_short(v0, v1, v2), true, lights != NULL);
+    plane->dx = g.depth.dx;
+    plane->dy = g.depth.dy;
+    plane->z = gradient_origin(g.depth, depth_of(v0), v0);
     plane->low = 0;
     plane->high = UINT32_MAX;
     if (lights) {
-        const uint32_t light0 = v0->depth_light & 0xff;
-        const int32_t l1 = (int32_t)(v1->depth_light & 0xff) - (int32_t)light0,
-                      l2 = (int32_t)(v2->depth_light & 0xff) - (int32_t)light0;
-        const gradient_t light =
-            small ? gradient_small(l1, l2, x1, y1, x2, y2, reciprocal, 28) : gradient_exact(l1, l2, x1, y1, x2, y2, area, 28);
-        lights->light = (uint32_t)gradient_origin(light, ((int64_t)light0 << 24) + 0x800000, v0);
-        lights->dx = (uint32_t)light.dx;
-        lights->dy = (uint32_t)light.dy;
+        lights->light = (uint32_t)gradient_origin(g.light, light_of(v0), v0);
+        lights->dx = (uint32_t)g.light.dx;
+        lights->dy = (uint32_t)g.light.dy;
     }
-}
-
-void triangle_plane(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane) {
-    planes(v0, v1, v2, plane, NULL);
-}
-
-void triangle_planes(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane, light_plane_t *lights) {
-    planes(v0, v1, v2, plane, lights);
 }
 
 TUILE_NOINLINE void triangle_paint_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,

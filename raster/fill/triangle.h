@@ -33,16 +33,13 @@ void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1
 void triangle_shade(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, bool gouraud, uint64_t *shade, uint64_t *dx,
                     uint64_t *dy);
 
-/* The plane that the tested spans of the triangle follow. */
-void triangle_plane(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane);
-
 /* Light at the centre of any pixel (x, y): light + x dx + y dy modulo 2^32, Q8.24 with the rounding half. */
 typedef struct light_plane {
     uint32_t light, dx, dy;
 } light_plane_t;
 
-/* Both planes. A gradient steeper than 2^31 (32768 steps a pixel) belongs to a sliver: its depth is right at the pixels of the face
- * and modulo 2^32 only. */
+/* The planes that the tested spans of the triangle follow; lights may be NULL. A gradient steeper than 2^31 (32768 steps a pixel)
+ * belongs to a sliver: its depth is right at the pixels of the face and modulo 2^32 only. */
 void triangle_planes(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, depth_plane_t *plane, light_plane_t *lights);
 
 /* The same for painting: no depth is made. */

@@ -39,7 +39,7 @@ static int64_t deviation(const polygon_ring_t *ring, const depth_plane_t *plane)
 static int64_t face_plane(const tuile_t *t, const record_t *face, depth_plane_t *plane) {
     if (frame_record_is_triangle(face)) {
         const vertex_t *v0 = &t->vertices[face->v0];
-        triangle_plane(v0, v0 + face->d1, v0 + face->d2, plane);
+        triangle_planes(v0, v0 + face->d1, v0 + face->d2, plane, NULL);
         return 0;
     }
     const polygon_ring_t ring = frame_record_ring(t, face);
