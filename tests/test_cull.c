@@ -1,5 +1,7 @@
 /* Culling of clusters: what can be seen is never dropped. */
 #include "support/check.h"
+#include "support/frame.h"
+#include "support/stage.h"
 
 #include <math.h>
 
@@ -247,11 +249,37 @@ static void a_wall_is_dropped_from_behind_only(void **state) {
     }
 }
 
+/* A cube seen from +z: of its six faces only one looks there. Reflected upside down it shows the inside of its far side: counter-
+ * clockwise has become clockwise, so that its near side is a back face. */
+static void a_reflected_model_keeps_the_clusters_that_show_their_fronts(void **state) {
+    (void)state;
+    model_compiled_t cube;
+    mesh_t mesh;
+    model_cube(&mesh);
+    model_compile(&cube, &mesh);
+    for (unsigned kind = 0; kind < 4; kind++) {
+        tuile_instance_t instance = stage_placed(&cube.model, 0);
+        tuile_scene_t scene = {.instances = &instance, .instance_count = 1, .camera = stage_plain_camera(64, 64)};
+        if (kind / 2) { /* its size at z = -1 is 64 * 39 / 41 pixels */
+            scene.camera.projection = TUILE_PERSPECTIVE;
+            scene.camera.focal_x = scene.camera.focal_y = 39 * 24 << 16;
+        }
+        if (kind % 2) { instance.pose.rotation[1][1] = -TUILE_ONE_Q30; }
+        uint32_t *ids = frame_draw_ids(&scene, 64, 64);
+        const uint32_t seen = ids[30 * 64 + 34];
+        assert_int_not_equal(seen, 0);
+        assert_int_equal(tuile_model_source_face(&cube.model, seen - 1), kind % 2); /* +z, -z */
+        free(ids);
+    }
+    model_free(&cube);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(clusters_with_a_vertex_in_the_region_are_never_dropped),
         cmocka_unit_test(clusters_with_a_front_face_are_never_dropped),
         cmocka_unit_test(a_wall_is_dropped_from_behind_only),
+        cmocka_unit_test(a_reflected_model_keeps_the_clusters_that_show_their_fronts),
     };
     return cmocka_run_group_tests_name("cull", tests, NULL, NULL);
 }

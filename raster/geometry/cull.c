@@ -42,6 +42,7 @@ bool cull_faces_away(const transform_t *transform, const uint8_t *cluster) {
         squares += (uint64_t)((int64_t)v * v);
         axis_squares += (uint32_t)(axis * axis);
     }
+    if (transform->mirrored) { dot = -dot; } /* the faces that look at the eye are the back faces */
     if (transform->perspective) {
         /* What the shifts cut off is below 2 in each component and in the radius. */
         const int64_t radius = (model_u16(cluster + CLUSTER_AT_RADIUS) >> transform->eye_shift) + (transform->eye_shift ? 8 : 1);

@@ -62,10 +62,14 @@ static bool place_piece(builder_t *b, uint32_t piece, bool reversed) {
     return true;
 }
 
-/* Does the list lie on the side that the face's normal points to? */
+/* Does the list lie on the side that the face's normal points to? One that lies in the plane itself has no inside; the back of its
+ * first face is taken for that, so that faces seen from the front and from the back are drawn at the same time, and the first of
+ * them wins a tie. */
 static bool looks_inward(const builder_t *b, uint32_t piece) {
     const space_face_t *face = &b->space->faces[b->space->pieces[piece].face];
-    return b->list.hull[face->plane] == (face->turned ? HULL_MINUS : HULL_PLUS);
+    const space_face_t *first = &b->space->faces[b->space->pieces[b->list.pieces[0]].face];
+    const int8_t side = b->list.hull[face->plane];
+    return side == (face->turned ? HULL_MINUS : HULL_PLUS) || (side == HULL_FLAT && face->turned != first->turned);
 }
 
 /* The faces on the hull to a node, the rest to its child. False: task->pieces is still the caller's, here and below. */

@@ -256,13 +256,17 @@ void model_write_obj(const mesh_t *mesh, const char *path) {
     assert_int_equal(fclose(file), 0);
 }
 
-void model_compile(model_compiled_t *compiled, mesh_t *mesh) {
+void model_compile_with(model_compiled_t *compiled, const mesh_t *mesh, const mesh_options_t *options) {
     sim_error_t error = {""};
     memset(compiled, 0, sizeof *compiled);
-    if (mesh_compile(mesh, NULL, &compiled->bytes, &compiled->size_bytes, &compiled->report, &error) != 0) {
+    if (mesh_compile(mesh, options, &compiled->bytes, &compiled->size_bytes, &compiled->report, &error) != 0) {
         fail_msg("%s", error.text);
     }
     assert_int_equal(tuile_model_open(&compiled->model, compiled->bytes, compiled->size_bytes), TUILE_OK);
+}
+
+void model_compile(model_compiled_t *compiled, mesh_t *mesh) {
+    model_compile_with(compiled, mesh, NULL);
     mesh_free(mesh);
 }
 

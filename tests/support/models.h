@@ -48,6 +48,8 @@ typedef struct model_compiled {
 
 /* Compiles, opens and frees the mesh. */
 void model_compile(model_compiled_t *compiled, mesh_t *mesh);
+/* The same with options, NULL = all zero; the mesh stays. */
+void model_compile_with(model_compiled_t *compiled, const mesh_t *mesh, const mesh_options_t *options);
 void model_free(model_compiled_t *compiled);
 
 #endif
