@@ -187,18 +187,21 @@ static bool one_plane(const solids_t *solids, uint32_t a, uint32_t b) {
     return memcmp(p, q, sizeof p) != 0 && dot * dot > squares[0] * squares[1] * (1 - 1e-14);
 }
 
-/* Is this face seen at the pixel, by depth, when that is sampled 1/16 pixel beside? */
-static bool seen_beside(const solids_t *solids, unsigned x, unsigned y, uint32_t id) {
-    bool seen = false;
-    for (int i = 0; i < 9 && !seen; i++) {
+/* Does the display tree show this face when the pixel is sampled 1/16 pixel beside? */
+static bool shown_beside(const solids_t *solids, tuile_tie_t tie, unsigned x, unsigned y, uint32_t id) {
+    tuile_config_t config = solids_config(solids, TUILE_TREE);
+    bool shown = false;
+    config.format = TUILE_FACE_IDS;
+    config.tie = (uint8_t)tie;
+    for (int i = 0; i < 9 && !shown; i++) {
         tuile_scene_t scene = solids->scene;
         scene.camera.centre_x += (i % 3 - 1) * 4096;
         scene.camera.centre_y += (i / 3 - 1) * 4096;
-        uint32_t *ids = frame_draw_ids(&scene, solids->width, solids->height);
-        seen = ids[(size_t)y * solids->width + x] == id;
+        uint32_t *ids = (uint32_t *)(void *)frame_draw(&scene, &config, MEMORY_BYTES, NULL);
+        shown = ids[(size_t)y * solids->width + x] == id;
         free(ids);
     }
-    return seen;
+    return shown;
 }
 
 void solids_compare(const solids_t *solids, const uint32_t *ids, const uint32_t *expected, const char *name, tuile_tie_t tie,
@@ -217,7 +220,7 @@ void solids_compare(const solids_t *solids, const uint32_t *ids, const uint32_t 
                          deeper = solids_depth(solids, by_depth, x + 0.5, y + 0.5, &within[1]);
             if (fabs(depth - deeper) > 1 + within[0] + within[1]) {
                 difference->beside++;
-                if (seen_beside(solids, x, y, is)) { continue; }
+                if (shown_beside(solids, tie, x, y, by_depth)) { continue; }
                 fail_msg("%s: face %u at %u,%u (depth %f +- %f) instead of %u (depth %f +- %f)", name, is, x, y, depth, within[0],
                          by_depth, deeper, within[1]);
             }

@@ -49,8 +49,9 @@ double solids_depth(const solids_t *solids, uint32_t id, double x, double y, dou
 typedef struct solids_difference {
     uint64_t pixels, covered;
     uint64_t differ; /* and may, being as good as equally deep */
-    uint64_t beside; /* differ, and would not were they sampled 1/16 pixel beside: where two faces that meet at a line, as the eye
-                        sees them, are both snapped over a pixel's centre, the order of the tree cannot tell the nearer one */
+    uint64_t beside; /* differ, and would not were they sampled 1/16 pixel beside: with the eye in a plane of the tree, faces on
+                        both sides of it meet at a line, as the eye sees them, and are both snapped over the pixel's centre; then
+                        the order of the tree, which is right off that line, cannot tell the nearer one */
     uint64_t ties;   /* differ too, and lie in one plane: depth, known to a step, took one of them */
 } solids_difference_t;
 
