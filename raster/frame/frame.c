@@ -79,7 +79,8 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     const size_t least = TUILE_LEAST_BYTES((size_t)c.height, (size_t)c.tile_width, (size_t)c.tile_height, c.format,
                                            (size_t)c.buffers, (size_t)c.cluster_vertices) -
                          TUILE_ALIGN64(2u * pixels) + tile_bytes + TUILE_CORNERS_BYTES(c.corners) +
-                         (c.method == TUILE_TREE ? TUILE_ALIGN8(4u * (size_t)c.tree_depth) + 8 : 0);
+                         /* the stack, the order of up to four instances, the tag of a ramp */
+                         (c.method == TUILE_TREE ? TUILE_ALIGN8(4u * (size_t)c.tree_depth) + 8 + 8 : 0);
     if (wanted_bytes) { *wanted_bytes = least; }
     if (block == NULL || size_bytes < least) { return TUILE_ERROR_MEMORY; }
     if ((uintptr_t)block % 8 != 0 || size_bytes > UINT32_MAX) { return TUILE_ERROR_ARGUMENT; }
