@@ -241,8 +241,10 @@ typedef struct tuile_config {
     (TUILE_STATE_BYTES + TUILE_ALIGN64(2u * (tile_w) * (tile_h)) +                              \
      (buffers)*TUILE_ALIGN64((size_t)TUILE_FORMAT_BYTES(format) * (tile_w) * (tile_h)) + 128u + \
      TUILE_ALIGN8(2u * (((height) + (tile_h)-1u) / (tile_h))))
-/* The least block that draws any scene whose clusters have at most cluster_vertices vertices and whose faces at most four corners.
- */
+/* The least block in which TUILE_ZBUFFER draws any scene whose clusters have at most cluster_vertices vertices and whose faces at
+ * most four corners. Other methods have no depth of a tile and other things (tuile_init tells the size); so has TUILE_TREE a least
+ * block that draws any scene of objects that planes separate. TUILE_SCANLINE, TUILE_WARNOCK and TUILE_PAINTER also want room for
+ * all faces of one tile at once: without it tuile_next returns TUILE_ERROR_MEMORY. */
 #define TUILE_LEAST_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices) \
     (TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers) + 8u * (cluster_vertices) + TUILE_CLIP_BYTES)
 
@@ -260,7 +262,8 @@ size_t tuile_wanted(const tuile_t *renderer);
 /* The configuration in force, with every default filled in. */
 const tuile_config_t *tuile_config(const tuile_t *renderer);
 
-/* Starts a frame. The scene and all it points to stay unchanged until tuile_end. */
+/* Starts a frame. The scene and all it points to stay unchanged until tuile_end. TUILE_TREE: every model must have a tree
+ * (TUILE_ERROR_TREE); TUILE_ERROR_MEMORY when the order of the objects finds no room. */
 int tuile_begin(tuile_t *renderer, const tuile_scene_t *scene);
 
 typedef struct tuile_tile {
