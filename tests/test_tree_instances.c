@@ -1,4 +1,5 @@
-/* Several models with display trees in one world: an order among them where planes part them, depth's own picture where none does. */
+/* Several models with display trees in one world: an order among them where planes part them, depth's own picture where none does.
+ */
 #include "support/check.h"
 #include "support/frame.h"
 #include "support/solids.h"
@@ -50,7 +51,8 @@ static void random_eye(solids_t *solids, random_source_t *random, double reach) 
     if (random_one_in(random, 3)) { solids_orthographic(solids, 5); }
 }
 
-/* One in each of some cells of 4 units, in any pose: none of them reaches 2 units from its middle (a cube's corner is sqrt 3 off). */
+/* One in each of some cells of 4 units, in any pose: none of them reaches 2 units from its middle (a cube's corner is sqrt 3 off).
+ */
 static void models_apart_are_drawn_as_by_depth(void **state) {
     random_source_t random = random_seed(31);
     solids_difference_t total = {0};
@@ -96,7 +98,8 @@ static void models_through_one_another_are_a_group(void **state) {
         solids_start(&solids, 64, 48);
         for (unsigned i = 0; i < count; i++) {
             tuile_instance_t *instance = solids_add(&solids, kinds[(round + i) % 3]);
-            solids_place(instance, random_real(&random, -0.3, 0.3), random_real(&random, -0.3, 0.3), random_real(&random, -0.3, 0.3));
+            solids_place(instance, random_real(&random, -0.3, 0.3), random_real(&random, -0.3, 0.3),
+                         random_real(&random, -0.3, 0.3));
             solids_turn(instance, &random, random_one_in(&random, 2));
             instance->two_sided = random_one_in(&random, 3);
         }
@@ -109,8 +112,8 @@ static void models_through_one_another_are_a_group(void **state) {
     }
 }
 
-/* A pair through one another with others before and behind it, and a room round all of it: its box holds theirs, so that all are one
- * group with it, and only the pair is without. */
+/* A pair through one another with others before and behind it, and a room round all of it: its box holds theirs, so that all are
+ * one group with it, and only the pair is without. */
 static void groups_and_trees_are_drawn_in_one_picture(void **state) {
     random_source_t random = random_seed(33);
     solids_difference_t total = {0};
