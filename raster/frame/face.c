@@ -243,7 +243,7 @@ static unsigned side_by_plane(const tuile_t *t, const frame_cluster_t *cluster, 
                               unsigned f) {
     const transform_t *transform = &t->transform;
     const int8_t *outward = cluster->plane_normals + 3 * (size_t)f;
-    wide_t first[3], normal[3] = {{0, 0}}, most = {0, 0}, height = {0, 0}, turned = {0, 0};
+    wide_t first[3] = {{0, 0}}, normal[3] = {{0, 0}}, most = {0, 0}, height = {0, 0}, turned = {0, 0};
     for (unsigned i = 0; i < corners; i++) {
         const unsigned j = i + 1 == corners ? 0 : i + 1;
         wide_t a[3], b[3], cross[3], size = {0, 0};
