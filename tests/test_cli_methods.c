@@ -38,8 +38,8 @@ static void a_method_that_there_is_not_is_refused(void **state) {
     cli_fails("faces --method bsp tests/models/crossing.txt", "--method", "bsp");
 }
 
-/* tests/models/crossing.txt: rectangles over columns 2 ... 21, the first over rows 2 ... 7, the second over rows 4 ... 9; where they
- * overlap the first is in front as far as column 11, then the second. */
+/* tests/models/crossing.txt: rectangles over columns 2 ... 21, the first over rows 2 ... 7, the second over rows 4 ... 9; where
+ * they overlap the first is in front as far as column 11, then the second. */
 static void crossing_rectangles_are_printed_alike_by_all(void **state) {
     char expected[24 * 12 * 2 + 1], *at = expected;
     (void)state;

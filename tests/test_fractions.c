@@ -1,4 +1,5 @@
-/* Corners between the whole steps, where the display tree cut a face: where they come to stand, how they are clipped, and picked. */
+/* Corners between the whole steps, where the display tree cut a face: where they come to stand, how they are clipped, and picked.
+ */
 #include "support/check.h"
 #include "support/frame.h"
 #include "support/random.h"
@@ -99,7 +100,8 @@ static void corners_between_steps_land_within_their_error(void **state) {
         }
         assert_int_equal(any_outside, found);
     }
-    print_message("%u corners, %u moved by their fraction; off by at most %.4Lf px, %.3Lf steps\n", inside, moved, worst, worst_depth);
+    print_message("%u corners, %u moved by their fraction; off by at most %.4Lf px, %.3Lf steps\n", inside, moved, worst,
+                  worst_depth);
     assert_true(inside > CHECK_ROUNDS(30000) && moved * 4 > inside);
     assert_true(worst < 1 / 32.0L + 1 / 80.0L); /* half of 1/16, and the error before the snap (DESIGN.md) */
     assert_true(worst_depth < 1);
