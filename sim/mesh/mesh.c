@@ -14,23 +14,6 @@ void mesh_free(mesh_t *mesh) {
     memset(mesh, 0, sizeof *mesh);
 }
 
-bool mesh_reserve(void *array, size_t *capacity, size_t count, size_t item_bytes) {
-    if (count <= *capacity) { return true; }
-    size_t wanted = *capacity < 64 ? 64 : *capacity;
-    while (wanted < count) {
-        if (wanted > SIZE_MAX / 2) { return false; }
-        wanted *= 2;
-    }
-    if (wanted > SIZE_MAX / item_bytes) { return false; }
-    void *old;
-    memcpy(&old, array, sizeof old);
-    void *grown = realloc(old, wanted * item_bytes);
-    if (!grown) { return false; }
-    memcpy(array, &grown, sizeof grown);
-    *capacity = wanted;
-    return true;
-}
-
 /* The compiler trusts nobody with indices: meshes also come from text scenes. */
 static int check(const mesh_t *mesh, sim_error_t *error) {
     if (mesh->material_count < 1 || mesh->material_count > MESH_MATERIALS_MAX) {

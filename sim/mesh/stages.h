@@ -14,7 +14,7 @@ __extension__ typedef __int128 mesh_int128_t;
 
 static inline void *mesh_array(size_t count, size_t item_bytes) { return calloc(count ? count : 1, item_bytes); }
 
-/* count items of item_bytes; *capacity grows by doubling. False when memory is short: *array is then as it was. */
+/* array.c: count items of item_bytes; *capacity grows by doubling. False when memory is short: *array is then as it was. */
 bool mesh_reserve(void *array, size_t *capacity, size_t count, size_t item_bytes);
 
 /* ---- files (check.c) --------------------------------------------------------------------------------------- */
