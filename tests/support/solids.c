@@ -177,14 +177,16 @@ double solids_depth(const solids_t *solids, uint32_t id, double x, double y, dou
 /* Two faces in one plane, and not two pieces of one. */
 static bool one_plane(const solids_t *solids, uint32_t a, uint32_t b) {
     double p[4], q[4], squares[2] = {0, 0}, dot = 0;
+    bool one_face = true;
     plane_of(solids, a, p);
     plane_of(solids, b, q);
     for (unsigned k = 0; k < 4; k++) {
         squares[0] += p[k] * p[k];
         squares[1] += q[k] * q[k];
         dot += p[k] * q[k];
+        one_face = one_face && p[k] == q[k];
     }
-    return memcmp(p, q, sizeof p) != 0 && dot * dot > squares[0] * squares[1] * (1 - 1e-14);
+    return !one_face && dot * dot > squares[0] * squares[1] * (1 - 1e-14);
 }
 
 /* Does the display tree show this face when the pixel is sampled 1/16 pixel beside? */
