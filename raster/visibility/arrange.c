@@ -80,18 +80,20 @@ static int relation_along(const box_t *a, const box_t *b, const wide_t axis[3], 
     return side < 0 ? FIRST_BEHIND : SECOND_BEHIND;
 }
 
+/* Two planes that ask for different orders show that the boxes hide nothing of one another: neither need come first. */
 static int relation(const box_t *a, const box_t *b, const wide_t *to) {
-    for (int i = 0; i < 6; i++) {
-        const int found = relation_along(a, b, i < 3 ? a->half[i] : b->half[i - 3], to);
-        if (found != UNKNOWN) { return found; }
-    }
-    for (int i = 0; i < 9; i++) {
+    bool found[UNKNOWN + 1] = {false};
+    for (int i = 0; i < 15 && !found[EITHER] && !(found[FIRST_BEHIND] && found[SECOND_BEHIND]); i++) {
         wide_t axis[3];
-        cross(a->half[i / 3], b->half[i % 3], axis);
-        const int found = relation_along(a, b, axis, to);
-        if (found != UNKNOWN) { return found; }
+        if (i < 6) {
+            found[relation_along(a, b, i < 3 ? a->half[i] : b->half[i - 3], to)] = true;
+        } else {
+            cross(a->half[(i - 6) / 3], b->half[(i - 6) % 3], axis);
+            found[relation_along(a, b, axis, to)] = true;
+        }
     }
-    return UNKNOWN;
+    if (found[EITHER] || (found[FIRST_BEHIND] && found[SECOND_BEHIND])) { return EITHER; }
+    return found[FIRST_BEHIND] ? FIRST_BEHIND : found[SECOND_BEHIND] ? SECOND_BEHIND : UNKNOWN;
 }
 
 typedef struct arrangement {
