@@ -60,7 +60,7 @@ define need
 	@mkdir -p $(@D) && touch $@
 endef
 
-.PHONY: golden help all demo test test-asan test-clang check bench bench-methods docs-pictures size format format-check lint clean
+.PHONY: golden help all demo test test-asan test-clang check bench bench-methods docs-pictures size size-arm format format-check lint clean
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' Makefile | sed 's/:.*##/\t/' | expand -t 16
 
@@ -71,6 +71,7 @@ $(BUILD)/need/test: ; $(call need,libcmocka-dev,tests)
 $(BUILD)/need/clang: ; $(call need,clang libclang-rt-14-dev,a second compiler)
 $(BUILD)/need/bench: ; $(call need,valgrind,instruction counts)
 $(BUILD)/need/lint: ; $(call need,clang-tidy cppcheck,static analysis)
+$(BUILD)/need/arm: ; $(call need,gcc-arm-none-eabi,code sizes on Cortex-M)
 $(BUILD)/need/format: ; $(call need,clang-format,formatting)
 
 # ---- objects and programs ------------------------------------------------------------------------------------------
@@ -204,6 +205,9 @@ docs-pictures: $(TUILE) $(COMPARED)/room-tree.tuile ## draw the pictures of docs
 size: $(CORE_OBJ) ## code size of each part, and that no part has data of its own
 	@size $(CORE_OBJ) | awk 'NR == 1 { print; next } { print; text += $$1; data += $$2; bss += $$3 } \
 	  END { print text "\t" data "\t" bss "\t\t\ttotal"; exit data + bss > 0 }'
+
+size-arm: $(BUILD)/need/arm ## code size of a renderer of each method on Cortex-M0+ and M3
+	@sh tests/size_arm.sh $(BUILD)/arm arm-none-eabi- -std=c11 -ffreestanding $(WARN)
 
 FORMATTED := $(shell git ls-files '*.c' '*.h' 2>/dev/null)
 format: $(BUILD)/need/format ## clang-format all sources

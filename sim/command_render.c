@@ -333,7 +333,7 @@ static int set_up(render_t *r) {
         return command_fail("%s", r->error.text);
     }
     if (r->sheet) {
-        r->pictures = calloc((size_t)r->frames, sizeof *r->pictures);
+        r->pictures = sim_pictures_create((size_t)r->frames);
         if (!r->pictures) { return command_fail("out of memory"); }
     }
     return 0;
@@ -551,12 +551,7 @@ int command_render(int count, char **arguments) {
     if (code < 0) { return command_finish(); }
     if (code == 0) {
         code = run(&r);
-        if (r.pictures) {
-            for (long i = 0; i < r.frames; i++) {
-                sim_picture_free(&r.pictures[i]);
-            }
-        }
-        free(r.pictures);
+        sim_pictures_free(r.pictures, (size_t)r.frames);
         if (r.chip) { r.chip->destroy(r.chip); }
         free(r.block);
         free(r.bytes);

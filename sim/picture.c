@@ -225,3 +225,12 @@ int sim_picture_difference(const sim_picture_t *a, const sim_picture_t *b, sim_p
     if (count) { *count = differ; }
     return 0;
 }
+
+sim_picture_t *sim_pictures_create(size_t count) { return calloc(count, sizeof(sim_picture_t)); }
+
+void sim_pictures_free(sim_picture_t *pictures, size_t count) {
+    for (size_t i = 0; pictures && i < count; i++) {
+        sim_picture_free(&pictures[i]);
+    }
+    free(pictures);
+}

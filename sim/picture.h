@@ -47,4 +47,8 @@ int sim_picture_halve(const sim_picture_t *picture, sim_picture_t *out, sim_erro
  * 64 (least) to 255. count (may be NULL) receives the number of pixels that differ. Pictures of unlike size are an error. */
 int sim_picture_difference(const sim_picture_t *a, const sim_picture_t *b, sim_picture_t *out, size_t *count, sim_error_t *error);
 
+/* So many empty pictures, NULL when out of memory; and away with all of them (NULL: nothing is done). */
+sim_picture_t *sim_pictures_create(size_t count);
+void sim_pictures_free(sim_picture_t *pictures, size_t count);
+
 #endif

@@ -260,7 +260,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
 /* ---- damage --------------------------------------------------------------------------------------------------- */
 
 #ifdef FUZZ_DRIVER
-#define THINNED (CHECK_SANITIZED ? 24u : 7u)
+#define THINNED (CHECK_SANITIZED ? 12u : 7u)
 
 typedef struct bytes {
     uint8_t *at;

@@ -97,6 +97,8 @@ typedef struct visibility_method {
     size_t (*room_bytes)(const tuile_config_t *config, uint32_t records);
     /* What a face of so many corners may want besides; NULL: nothing. */
     size_t (*face_bytes)(uint32_t corners);
+    /* For those who watch: the pixels of a piece in a row (visibility/piece.h); NULL: the method cuts no faces. */
+    void (*piece_mask)(const tuile_t *t, const record_t *record, int32_t y, int32_t from, int32_t to, uint32_t *mask);
 } visibility_method_t;
 
 extern const visibility_method_t visibility_zbuffer; /* visibility/zbuffer.c, and so on */

@@ -7,7 +7,7 @@
 static void trace_piece(const tuile_t *t, const record_t *record, int32_t row, int32_t first, int32_t end) {
     const tuile_trace_t *trace = t->config.trace;
     uint32_t mask[PIECE_MASK_WORDS];
-    piece_mask(t, record, row, first, end, mask);
+    t->method->piece_mask(t, record, row, first, end, mask);
     for (int32_t x = first; x < end; x++) {
         const int32_t from = x;
         while (x < end && piece_mask_bit(mask, x - first)) {

@@ -41,7 +41,7 @@ static inline int64_t tree_side(const tree_plane_t *plane, const transform_t *tr
     int64_t d = 0;
     if (transform->perspective) {
         const int bits = transform->observer_bits;
-        d = bits >= 0 ? plane->d * ((int64_t)1 << bits) : plane->d >> (bits < -63 ? 63 : -bits);
+        d = bits >= 0 ? plane->d * ((int64_t)1 << bits) : plane->d >> (bits < -62 ? 62 : -bits);
     }
     return (int64_t)plane->n[0] * o[0] + (int64_t)plane->n[1] * o[1] + (int64_t)plane->n[2] * o[2] + d;
 }

@@ -22,6 +22,7 @@
 #include "../memory.h"
 #include "bands.h"
 #include "painter.h"
+#include "piece.h"
 #include "priority.h"
 
 #define PAINTED UINT16_MAX /* in the place of a record's number */
@@ -452,4 +453,5 @@ const visibility_method_t visibility_painter = {
     .gather = painter_gather,
     .draw_tile = paint_draw_tile,
     .room_bytes = painter_method_room,
+    .piece_mask = piece_mask,
 };

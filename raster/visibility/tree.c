@@ -21,6 +21,7 @@
 #include "arrange.h"
 #include "paint.h"
 #include "painter.h"
+#include "piece.h"
 
 #include "../geometry/tree.h"
 
@@ -239,4 +240,5 @@ const visibility_method_t visibility_tree = {
     .gather = tree_gather,
     .draw_now = paint_draw_now,
     .draw_tile = paint_draw_tile,
+    .piece_mask = piece_mask,
 };
