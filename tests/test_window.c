@@ -62,7 +62,7 @@ static void the_four_tests_case_by_case(void **state) {
         for (unsigned backwards = 0; backwards < 2; backwards++) {
             canvas_face_t face = face_in_pixels(examples[i].points, examples[i].count, backwards);
             const polygon_ring_t ring = face_ring(&face);
-            const int found = window_ring(&ring, &four);
+            const int found = (int)window_ring(&ring, &four);
             if (found != examples[i].expected) { fail_msg("%s: %d", examples[i].name, found); }
         }
     }
