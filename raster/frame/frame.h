@@ -3,9 +3,10 @@
  *   block: | tuile_t | tile memory of the method | colours 0 | colours 1 | buckets | arena ...                        |
  *   arena: | shading ramps | tree memory | vertices ->   <- carried states moved up          <- records (from the end) |
  *
- * A record is one face of the pass. Records are numbered in the order of the faces, so their numbers decide ties. Each hangs in the
- * bucket of the tile row where it starts; from there on its state is carried in a stream between vertices and records, in the
- * same order, or, where there is no room for that, the record moves on to the next bucket and is set up again there.
+ * A record is one face of the pass. Records are numbered in the order of the faces, so their numbers decide ties; or, where faces
+ * are painted over one another without depth, in the order of painting. Each hangs in the bucket of the tile row where it starts;
+ * from there on its state is carried in a stream between vertices and records, in the same order, or, where there is no room for
+ * that, the record moves on to the next bucket and is set up again there.
  */
 #ifndef TUILE_FRAME_FRAME_H
 #define TUILE_FRAME_FRAME_H
@@ -85,7 +86,7 @@ typedef struct visibility_method {
     int (*begin)(tuile_t *t, uint8_t **arena);
     /* Faces of the pass into records. */
     int (*gather)(tuile_t *t);
-    /* Before each tile, behind the background; NULL: nothing. */
+    /* Before each tile, beside its background; NULL: nothing. */
     void (*clear)(tuile_t *t);
     /* Immediate pass: the face of a record into the tile; the record goes away after the call. NULL: the method needs all faces of
      * a tile at once. */
