@@ -257,9 +257,8 @@ static unsigned side_by_plane(const tuile_t *t, const frame_cluster_t *cluster, 
             a[k] = wide_make(q[1] - q[0], -8);
             b[k] = wide_make(q[2] - q[0], -8);
         }
+        wide_cross(a, b, cross);
         for (unsigned k = 0; k < 3; k++) {
-            const unsigned y = (k + 1) % 3, z = (k + 2) % 3;
-            cross[k] = wide_add(wide_multiply(a[y], b[z]), wide_negate(wide_multiply(a[z], b[y])));
             size = wide_add(size, wide_abs(cross[k]));
         }
         if (wide_sign(wide_add(size, wide_negate(most))) > 0) { /* the largest triangle is the least disturbed by rounding */

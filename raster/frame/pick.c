@@ -6,10 +6,6 @@ typedef struct ray {
     wide_t from[3], along[3]; /* in steps, relative to the model's offset */
 } ray_t;
 
-static wide_t dot3(const wide_t a[3], const wide_t b[3]) {
-    return wide_add(wide_add(wide_multiply(a[0], b[0]), wide_multiply(a[1], b[1])), wide_multiply(a[2], b[2]));
-}
-
 /* Rotation matrices are inverted by transposing. */
 static void rotate_back(wide_t out[3], const q2_30_t rotation[3][3], const wide_t in[3]) {
     for (int j = 0; j < 3; j++) {
@@ -24,8 +20,7 @@ static void rotate_back(wide_t out[3], const q2_30_t rotation[3][3], const wide_
 static void pixel_ray(ray_t *ray, const tuile_camera_t *camera, const tuile_instance_t *instance, uint16_t x, uint16_t y) {
     const tuile_pose_t *pose = &instance->pose;
     const tuile_model_t *model = instance->model;
-    const wide_t step =
-        wide_multiply(wide_make(model->step.mantissa, model->step.exponent), wide_make(pose->scale.mantissa, pose->scale.exponent));
+    const wide_t step = wide_multiply(wide_scale(model->step), wide_scale(pose->scale));
     const wide_t per_step = wide_reciprocal(step);
     const wide_t across = wide_multiply(wide_make((int64_t)x * 65536 + 32768 - camera->centre_x, -16),
                                         wide_reciprocal(wide_make(camera->focal_x, -16)));
@@ -114,8 +109,8 @@ static void intersect(const tuile_scene_t *scene, tuile_hit_t *hit, uint16_t x, 
     for (int i = 0; i < 3; i++) {
         between[i] = wide_add(point[i], wide_negate(ray.from[i]));
     }
-    const wide_t slope = dot3(normal, ray.along);
-    const wide_t distance = wide_sign(slope) ? wide_multiply(dot3(normal, between), wide_reciprocal(slope)) : (wide_t){0, 0};
+    const wide_t slope = wide_dot(normal, ray.along);
+    const wide_t distance = wide_sign(slope) ? wide_multiply(wide_dot(normal, between), wide_reciprocal(slope)) : (wide_t){0, 0};
     for (int i = 0; i < 3; i++) {
         const wide_t at = wide_sign(slope) ? wide_add(ray.from[i], wide_multiply(distance, ray.along[i])) : point[i];
         const int64_t value = wide_to_integer(at, 16);

@@ -36,12 +36,10 @@ static wide_row_t row_add(const wide_row_t *a, const wide_row_t *b) {
 
 static wide_t q16(q16_16_t value) { return wide_make(value, -16); }
 
-static wide_t scale_value(tuile_scale_t scale) { return wide_make(scale.mantissa, scale.exponent); }
-
 /* view[i] = component i of the view position, as a function of the quantised position. */
 static void view_rows(wide_row_t view[3], const tuile_camera_t *camera, const tuile_instance_t *instance) {
     const tuile_pose_t *pose = &instance->pose;
-    const wide_t step = wide_multiply(scale_value(instance->model->step), scale_value(pose->scale));
+    const wide_t step = wide_multiply(wide_scale(instance->model->step), wide_scale(pose->scale));
     for (int i = 0; i < 3; i++) {
         view[i].t = (wide_t){0, 0};
         for (int j = 0; j < 3; j++) {
@@ -121,7 +119,7 @@ static void light_vectors(transform_t *transform, const tuile_scene_t *scene, co
  * transposing. */
 static void eye_position(transform_t *transform, const tuile_camera_t *camera, const tuile_instance_t *instance) {
     const tuile_pose_t *pose = &instance->pose;
-    const wide_t per_step = wide_reciprocal(wide_multiply(scale_value(instance->model->step), scale_value(pose->scale)));
+    const wide_t per_step = wide_reciprocal(wide_multiply(wide_scale(instance->model->step), wide_scale(pose->scale)));
     wide_t eye[3];
     int32_t bits = 0;
     for (int j = 0; j < 3; j++) {

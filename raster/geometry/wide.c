@@ -44,3 +44,14 @@ int64_t wide_to_integer(wide_t a, int32_t shift) {
     if (exponent == 0) { return a.mantissa; }
     return ((a.mantissa >> (-exponent - 1)) + 1) >> 1;
 }
+
+wide_t wide_dot(const wide_t a[3], const wide_t b[3]) {
+    return wide_add(wide_add(wide_multiply(a[0], b[0]), wide_multiply(a[1], b[1])), wide_multiply(a[2], b[2]));
+}
+
+void wide_cross(const wide_t a[3], const wide_t b[3], wide_t c[3]) {
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        c[i] = wide_add(wide_multiply(a[j], b[k]), wide_negate(wide_multiply(a[k], b[j])));
+    }
+}

@@ -5,6 +5,7 @@
 #define TUILE_GEOMETRY_WIDE_H
 
 #include "../fixed.h"
+#include "../tuile.h"
 
 /* mantissa * 2^exponent, with 2^61 <= |mantissa| < 2^62, or 0. Exponents stay within +-2^14 by far in all that is done here. */
 typedef struct wide {
@@ -27,6 +28,12 @@ wide_t wide_reciprocal(wide_t a);
 /* a * 2^shift rounded to an integer; saturates at +-2^62. */
 int64_t wide_to_integer(wide_t a, int32_t shift);
 
+wide_t wide_dot(const wide_t a[3], const wide_t b[3]);
+
+/* c may be neither a nor b. */
+void wide_cross(const wide_t a[3], const wide_t b[3], wide_t c[3]);
+
+static inline wide_t wide_scale(tuile_scale_t scale) { return wide_make(scale.mantissa, scale.exponent); }
 static inline wide_t wide_negate(wide_t a) { return (wide_t){-a.mantissa, a.exponent}; }
 static inline wide_t wide_abs(wide_t a) { return a.mantissa < 0 ? wide_negate(a) : a; }
 

@@ -19,13 +19,11 @@ typedef struct box {
 
 enum { EITHER, FIRST_BEHIND, SECOND_BEHIND, UNKNOWN };
 
-static wide_t scale_value(tuile_scale_t scale) { return wide_make(scale.mantissa, scale.exponent); }
-
 static void box_make(const tuile_scene_t *scene, unsigned number, box_t *box) {
     const tuile_instance_t *instance = &scene->instances[number];
     const tuile_model_t *model = instance->model;
     const tuile_pose_t *pose = &instance->pose;
-    const wide_t half_step = wide_multiply(wide_multiply(scale_value(model->step), scale_value(pose->scale)), wide_make(1, -1));
+    const wide_t half_step = wide_multiply(wide_multiply(wide_scale(model->step), wide_scale(pose->scale)), wide_make(1, -1));
     for (int i = 0; i < 3; i++) {
         const int64_t origin = scene->camera.projection == TUILE_PERSPECTIVE ? scene->camera.eye[i] : 0;
         box->centre[i] = wide_make((int64_t)pose->translation[i] - origin, -16);
@@ -38,21 +36,10 @@ static void box_make(const tuile_scene_t *scene, unsigned number, box_t *box) {
     }
 }
 
-static wide_t dot(const wide_t a[3], const wide_t b[3]) {
-    return wide_add(wide_add(wide_multiply(a[0], b[0]), wide_multiply(a[1], b[1])), wide_multiply(a[2], b[2]));
-}
-
-static void cross(const wide_t a[3], const wide_t b[3], wide_t c[3]) {
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        c[i] = wide_add(wide_multiply(a[j], b[k]), wide_negate(wide_multiply(a[k], b[j])));
-    }
-}
-
 static wide_t reach(const box_t *box, const wide_t axis[3]) {
     wide_t sum = {0, 0};
     for (int i = 0; i < 3; i++) {
-        sum = wide_add(sum, wide_abs(dot(box->half[i], axis)));
+        sum = wide_add(sum, wide_abs(wide_dot(box->half[i], axis)));
     }
     return sum;
 }
@@ -62,7 +49,7 @@ static bool less(wide_t a, wide_t b) { return wide_sign(wide_add(b, wide_negate(
 /* a lies below b along the axis, or above it, with a plane between them; else UNKNOWN. `to`: where an orthographic camera looks
  * from. */
 static int relation_along(const box_t *a, const box_t *b, const wide_t axis[3], const wide_t *to) {
-    wide_t ca = dot(a->centre, axis), cb = dot(b->centre, axis);
+    wide_t ca = wide_dot(a->centre, axis), cb = wide_dot(b->centre, axis);
     const wide_t ra = reach(a, axis), rb = reach(b, axis), slack = wide_multiply(wide_add(ra, rb), wide_make(1, -15));
     const bool above = less(cb, ca);
     if (above) {
@@ -72,7 +59,7 @@ static int relation_along(const box_t *a, const box_t *b, const wide_t axis[3], 
     const wide_t a_top = wide_add(ca, ra), b_bottom = wide_add(cb, wide_negate(rb));
     if (wide_sign(wide_add(ra, rb)) == 0 || less(wide_add(b_bottom, slack), a_top)) { return UNKNOWN; }
     if (to) {
-        const int side = above ? -wide_sign(dot(to, axis)) : wide_sign(dot(to, axis)); /* > 0: the observer is beyond b */
+        const int side = above ? -wide_sign(wide_dot(to, axis)) : wide_sign(wide_dot(to, axis)); /* > 0: the observer is beyond b */
         return side > 0 ? FIRST_BEHIND : side < 0 ? SECOND_BEHIND : EITHER;
     }
     const wide_t middle = wide_add(a_top, b_bottom); /* of the gap, twice: the observer is at 0 */
@@ -88,7 +75,7 @@ static int relation(const box_t *a, const box_t *b, const wide_t *to) {
         if (i < 6) {
             found[relation_along(a, b, i < 3 ? a->half[i] : b->half[i - 3], to)] = true;
         } else {
-            cross(a->half[(i - 6) / 3], b->half[(i - 6) % 3], axis);
+            wide_cross(a->half[(i - 6) / 3], b->half[(i - 6) % 3], axis);
             found[relation_along(a, b, axis, to)] = true;
         }
     }

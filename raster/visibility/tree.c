@@ -83,22 +83,28 @@ static int draw_part(tuile_t *t, walk_t *walk, uint32_t k, uint32_t first, uint3
     return result;
 }
 
+static uint32_t cluster_first(const tuile_model_t *model, uint32_t k) {
+    return model_u32(model->clusters + (size_t)k * MODEL_CLUSTER_BYTES + CLUSTER_AT_FIRST_FACE);
+}
+
+static uint32_t cluster_end(const tuile_model_t *model, uint32_t k) {
+    return cluster_first(model, k) + model_u16(model->clusters + (size_t)k * MODEL_CLUSTER_BYTES + CLUSTER_AT_FACE_COUNT);
+}
+
 /* Faces first ... end - 1 of the model; `cluster` has the first of them or comes before it. */
 static int draw_run(tuile_t *t, walk_t *walk, uint32_t cluster, uint32_t first, uint32_t end, unsigned sides) {
     const tuile_model_t *model = t->instance->model;
-    const uint8_t *table = model->clusters;
     uint32_t k = cluster, last;
     int result = FRAME_OK;
     if (first == end || sides == 0) { return FRAME_OK; }
-#define CLUSTER_FIRST(k) model_u32(table + (size_t)(k)*MODEL_CLUSTER_BYTES + CLUSTER_AT_FIRST_FACE)
-#define CLUSTER_END(k) (CLUSTER_FIRST(k) + model_u16(table + (size_t)(k)*MODEL_CLUSTER_BYTES + CLUSTER_AT_FACE_COUNT))
-    while (CLUSTER_END(k) <= first) {
+    while (cluster_end(model, k) <= first) {
         k++;
     }
-    for (last = k; CLUSTER_END(last) < end; last++) {}
+    for (last = k; cluster_end(model, last) < end; last++) {}
     for (uint32_t i = 0; i <= last - k && result == FRAME_OK; i++) {
         const uint32_t c = walk->backwards ? last - i : k + i;
-        const uint32_t from = CLUSTER_FIRST(c) > first ? CLUSTER_FIRST(c) : first, to = CLUSTER_END(c) < end ? CLUSTER_END(c) : end;
+        const uint32_t from = cluster_first(model, c) > first ? cluster_first(model, c) : first,
+                       to = cluster_end(model, c) < end ? cluster_end(model, c) : end;
         result = draw_part(t, walk, c, from, to, sides);
     }
     return result;
