@@ -14,7 +14,7 @@ CC := clang
 endif
 
 WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes \
-        -Wcast-qual -Wwrite-strings -Wundef -Wvla -Werror
+        -Wcast-qual -Wwrite-strings -Wundef -Wvla -Wno-missing-field-initializers -Werror # a field that is left out is 0, the default
 CFLAGS_CORE := -std=c11 -O2 -g -ffreestanding -fno-pie $(WARN) # as on a board: constants with pointers are read-only
 LDFLAGS := -no-pie
 CFLAGS_HOST := -std=c11 -O2 -g -D_GNU_SOURCE $(WARN)

@@ -46,6 +46,7 @@ typedef enum tuile_error {
     TUILE_ERROR_SEQUENCE = -6, /* tuile_next without tuile_begin, and the like */
     TUILE_ERROR_LIMITS = -7,   /* a model exceeds the cluster_vertices, corners or tree_depth that the renderer was laid out for */
     TUILE_ERROR_TREE = -8,     /* TUILE_TREE, and a model has no display tree */
+    TUILE_ERROR_EFFECTS = -9,  /* the scene asks for what config.effects (or the build) leaves out */
 } tuile_error_t;
 
 /* One line of English about an error code; never NULL. */
@@ -60,6 +61,65 @@ typedef struct tuile_scale {
 } tuile_scale_t;
 
 #define TUILE_SCALE_ONE ((tuile_scale_t){1, 0})
+
+/* ---- textures and materials ---------------------------------------------------------------------------------- */
+
+#define TUILE_TEXTURE_MAX 2048 /* texels across or down */
+
+typedef enum tuile_texel {
+    TUILE_TEXEL_RGB565 = 0,   /* 2 bytes, little-endian */
+    TUILE_TEXEL_PALETTE8 = 1, /* 1 byte, an index into the palette */
+    TUILE_TEXEL_PALETTE4 = 2, /* 4 bits, the left one of two texels in the low half; rows begin on whole bytes */
+    TUILE_TEXEL_GREY8 = 3,    /* 1 byte of luminance */
+    TUILE_TEXEL_ARGB4444 = 4, /* 2 bytes, little-endian: alpha, red, green, blue, 4 bits each from the top */
+} tuile_texel_t;
+
+typedef enum tuile_texture_flags {
+    TUILE_TEXTURE_CLAMP_S = 1, /* else the texture repeats */
+    TUILE_TEXTURE_CLAMP_T = 2,
+    TUILE_TEXTURE_KEY = 4,           /* texels equal to `key` (the texel's bits, or its index) are not there */
+    TUILE_TEXTURE_PALETTE_ALPHA = 8, /* the palette's entries are ARGB4444, else RGB565 */
+} tuile_texture_flags_t;
+
+/* Row 0 is the top of the image, and t grows downwards. Points into the caller's bytes. */
+typedef struct tuile_texture {
+    const uint8_t *texels;  /* level 0 row by row without gaps, then, 2-byte aligned, each further level: half as wide and high,
+                               rounded down, 1 at least */
+    const uint8_t *palette; /* 256 or 16 entries of 2 bytes, little-endian; NULL without one */
+    uint16_t width, height; /* 1 ... TUILE_TEXTURE_MAX; powers of two are fastest */
+    uint8_t format;         /* tuile_texel_t */
+    uint8_t levels;         /* mip levels, 1 at least */
+    uint8_t flags;          /* tuile_texture_flags_t, or-ed */
+    uint16_t key;
+} tuile_texture_t;
+
+typedef enum tuile_blend {
+    TUILE_BLEND_OVER = 0,     /* alpha * colour + (1 - alpha) * what is behind */
+    TUILE_BLEND_ADD = 1,      /* alpha * colour + what is behind, held at white */
+    TUILE_BLEND_MULTIPLY = 2, /* what is behind * (1 - alpha + alpha * colour) */
+} tuile_blend_t;
+
+typedef enum tuile_material_flags {
+    TUILE_MATERIAL_TWO_SIDED = 1, /* back faces are seen too, lit as front faces */
+    TUILE_MATERIAL_BILINEAR = 2,  /* texels are interpolated, else the nearest one is taken */
+    TUILE_MATERIAL_UNLIT = 4,     /* colour and texture as they are */
+} tuile_material_flags_t;
+
+#define TUILE_NO_TEXTURE 255u
+
+/* What a face is made of. A face is translucent, and drawn after all others, back to front, if its material has an alpha below 255
+ * or a blend other than OVER, or its texture has alpha or a key, or its model has vertex colours with alpha. */
+typedef struct tuile_material {
+    uint8_t colour[3]; /* red, green, blue; multiplied by the texture and the vertex colour */
+    uint8_t alpha;     /* 255: opaque */
+    uint8_t emission[3]; /* added to the light: 255 = 1.0 */
+    uint8_t specular;    /* the highlight's level, 255 = 1.0; 0: none */
+    uint8_t shininess;   /* log2 of the exponent of the highlight, 0 ... 7 */
+    uint8_t texture;     /* index among the model's textures, or TUILE_NO_TEXTURE */
+    uint8_t blend;       /* tuile_blend_t */
+    uint8_t flags;       /* tuile_material_flags_t, or-ed */
+    uint8_t uv_bits;     /* fraction bits of the model's texture coordinates of this material, 0 ... 8 */
+} tuile_material_t;
 
 /* An opened model: pointers into the caller's bytes, which must outlive it. geometry/model.h has the layout. */
 typedef struct tuile_model {
@@ -77,6 +137,9 @@ typedef struct tuile_model {
     const uint8_t *positions, *normals, *clusters, *faces, *face_normals, *materials, *source;
     const uint8_t *fractions; /* NULL: none */
     const uint8_t *tree;      /* NULL: none */
+    const uint8_t *texcoords, *colours, *textures; /* NULL: none */
+    const uint8_t *morph_positions, *morph_normals, *morph_face_normals; /* the second key frame; NULL: none */
+    uint16_t texture_count;
     uint32_t tree_words;
     uint16_t tree_depth;     /* nodes on the longest path */
     int16_t low[3], high[3]; /* the box of all positions, in steps relative to offset */
@@ -89,6 +152,10 @@ int tuile_model_open(tuile_model_t *model, const void *bytes, size_t size_bytes)
 
 /* The importer's number of a face of the model (0-based), for a face index as drawn. */
 uint32_t tuile_model_source_face(const tuile_model_t *model, uint32_t face);
+
+/* Material or texture `index` of an opened model, index < material_count or texture_count. */
+tuile_material_t tuile_model_material(const tuile_model_t *model, uint32_t index);
+tuile_texture_t tuile_model_texture(const tuile_model_t *model, uint32_t index);
 
 /* ---- scene ------------------------------------------------------------------------------------------------- */
 
@@ -103,13 +170,54 @@ typedef struct tuile_instance {
     const tuile_model_t *model;
     tuile_pose_t pose;
     bool two_sided; /* draw back faces too, lit as front faces */
+    const tuile_material_t *materials; /* material_count of them in the place of the model's own; NULL: the model's */
+    uint16_t morph;                    /* how far towards the second key frame, 0 ... TUILE_MORPH_ONE; 0 for models without one */
 } tuile_instance_t;
 
-/* A directional light. */
+#define TUILE_MORPH_ONE 32768u
+
+typedef enum tuile_light_kind {
+    TUILE_LIGHT_DIRECTIONAL = 0,
+    TUILE_LIGHT_POINT = 1,
+} tuile_light_kind_t;
+
 typedef struct tuile_light {
-    q2_14_t direction[3]; /* unit vector, world space, the way the light travels */
+    q2_14_t direction[3]; /* directional: unit vector, world space, the way the light travels */
     uint8_t intensity;    /* 255 = 1.0 */
+    uint8_t kind;         /* tuile_light_kind_t; point lights want TUILE_SURFACES */
+    uint8_t colour[3];    /* red, green, blue; {0, 0, 0} = white; other colours want TUILE_SURFACES */
+    q16_16_t position[3]; /* point: world space */
+    q16_16_t range;       /* point: at a distance d the light is intensity * (1 - d^2 / range^2)^2, none from range on; > 0 */
 } tuile_light_t;
+
+typedef enum tuile_fog_kind {
+    TUILE_FOG_NONE = 0,
+    TUILE_FOG_LINEAR = 1,      /* of the colour: (w - near) / (far - near), held to 0 ... 1; w: distance along the view axis */
+    TUILE_FOG_EXPONENTIAL = 2, /* 1 - 2^-((w - near) / far), 0 before near: half of the rest every `far` */
+} tuile_fog_kind_t;
+
+typedef struct tuile_fog {
+    uint8_t kind; /* tuile_fog_kind_t; wants TUILE_SURFACES */
+    uint8_t colour[3];
+    q16_16_t near, far; /* world units; far > near >= 0 for LINEAR, far > 0 for EXPONENTIAL */
+} tuile_fog_t;
+
+/* A straight line between two points of the world, hidden where faces are before it. Wants TUILE_LAYERS. */
+typedef struct tuile_line {
+    q16_16_t from[3], to[3];
+    uint8_t colour[3];
+    bool smooth; /* anti-aliased, else Bresenham's */
+} tuile_line_t;
+
+/* A picture, disc or square that always faces the camera, hidden where faces are before it. Wants TUILE_LAYERS. */
+typedef struct tuile_sprite {
+    q16_16_t at[3];                 /* world: its centre */
+    q16_16_t width, height;         /* world units; or pixels if `pixels` */
+    const tuile_texture_t *texture; /* NULL: a plain square of `colour` */
+    uint8_t colour[3], alpha;       /* multiplied by the texture; alpha 255 = opaque */
+    uint8_t blend;                  /* tuile_blend_t */
+    bool pixels, round;             /* size is in pixels, whatever the distance; a disc or ellipse instead of the rectangle */
+} tuile_sprite_t;
 
 typedef enum tuile_projection {
     TUILE_PERSPECTIVE = 0,
@@ -147,6 +255,11 @@ typedef struct tuile_scene {
     uint8_t ambient;       /* 255 = 1.0 */
     uint8_t background[3]; /* red, green, blue */
     tuile_camera_t camera;
+    uint8_t ambient_colour[3]; /* {0, 0, 0} = white; others want TUILE_SURFACES */
+    tuile_fog_t fog;
+    const tuile_line_t *lines;
+    const tuile_sprite_t *sprites;
+    uint16_t line_count, sprite_count;
 } tuile_scene_t;
 
 /* ---- renderer ---------------------------------------------------------------------------------------------- */
@@ -155,8 +268,48 @@ typedef enum tuile_format {
     TUILE_RGB565_BE = 0, /* 2 bytes a pixel, high byte first: what MIPI DCS panels take */
     TUILE_RGB565_LE = 1,
     TUILE_FACE_IDS = 2, /* 4 bytes a pixel, a native uint32_t: 0 = background, else 1 + face index counted through the
-                           instances in order (of each, its model's face order) */
+                           instances in order (of each, its model's face order); translucent faces count as opaque */
+    TUILE_RGB444 = 3,   /* 12 bits: two pixels in 3 bytes, R1G1 B1R2 G2B2; tiles are an even number of pixels wide */
+    TUILE_RGB666 = 4,   /* 3 bytes, each colour in the upper 6 bits of one */
+    TUILE_RGB332 = 5,   /* 1 byte */
+    TUILE_GREY8 = 6,    /* 1 byte of luminance */
+    TUILE_GREY4 = 7,    /* 4 bits, the left one of two pixels in the high half; tiles are an even number of pixels wide */
+    TUILE_MONO_PAGES = 8, /* 1 bit: a byte is 8 pixels below one another, bit 0 on top, bytes run along the row; tiles are a
+                             multiple of 8 high */
+    TUILE_MONO_ROWS = 9,  /* 1 bit: a byte is 8 pixels beside one another, bit 7 left; tiles are a multiple of 8 wide */
 } tuile_format_t;
+#define TUILE_FORMAT_COUNT 10
+
+/* What beside white directional light, flat or Gouraud, on opaque faces a renderer is laid out for: or-ed. Without SURFACES textures,
+ * vertex colours, emission and highlights of models are left out and faces have the colours of their materials. */
+typedef enum tuile_effects {
+    TUILE_SURFACES = 1, /* textures, vertex colours, coloured and point lights, highlights, emission, fog */
+    TUILE_LAYERS = 2,   /* translucent faces, lines, sprites, wireframes; brings SURFACES with it */
+} tuile_effects_t;
+
+/* Supersampling: each pixel is the mean of so many samples, on a regular grid inside it. */
+typedef enum tuile_aa {
+    TUILE_AA_NONE = 0,
+    TUILE_AA_2X2 = 1,
+    TUILE_AA_4X4 = 2,
+} tuile_aa_t;
+
+/* Edges of faces as lines, over the faces; want TUILE_LAYERS. */
+typedef enum tuile_edges {
+    TUILE_EDGES_NONE = 0,
+    TUILE_EDGES_ALL = 1,     /* all edges, and no faces */
+    TUILE_EDGES_FRONT = 2,   /* edges of front faces, and no faces */
+    TUILE_EDGES_HIDDEN = 3,  /* edges of front faces that no face hides; faces in the background's colour */
+    TUILE_EDGES_OUTLINE = 4, /* silhouettes over the shaded faces */
+} tuile_edges_t;
+
+/* How textures are drawn, whatever their materials say; for study and for comparison. Or-ed. */
+typedef enum tuile_texturing {
+    TUILE_TEXTURE_AFFINE = 1,   /* without perspective correction */
+    TUILE_TEXTURE_NEAREST = 2,  /* no interpolation between texels */
+    TUILE_TEXTURE_NO_MIPS = 4,  /* level 0 only */
+    TUILE_TEXTURE_OFF = 8,      /* colours of materials only */
+} tuile_texturing_t;
 
 /* Hidden-surface methods. They show the same face at every pixel, but for pixels where two faces are within one step of depth. */
 typedef enum tuile_method {
@@ -209,6 +362,10 @@ typedef struct tuile_trace {
     void (*window)(void *context, unsigned left, unsigned top, unsigned right, unsigned bottom, unsigned why);
 } tuile_trace_t;
 
+/* The pixels of a tile, for what is drawn over the faces: overlay/overlay.h has what draws into it. */
+typedef struct tuile_canvas tuile_canvas_t;
+typedef void (*tuile_overlay_fn)(void *context, tuile_canvas_t *canvas);
+
 /* Zero = default, throughout. */
 typedef struct tuile_config {
     uint16_t width, height;           /* window, 1 ... TUILE_WINDOW_MAX_PX */
@@ -225,22 +382,58 @@ typedef struct tuile_config {
     uint16_t row_first, row_end;      /* draw only the tiles that start in rows [first, end); end 0 = height */
     uint8_t warnock;                  /* tuile_warnock_t; 0 = SINGLE | BOX | PIXELS */
     const tuile_trace_t *trace;       /* NULL = none; outlives the renderer */
+    uint8_t effects;                  /* tuile_effects_t, or-ed */
+    uint8_t aa;                       /* tuile_aa_t. Width and height times the samples along them are at most TUILE_SAMPLES_MAX */
+    uint8_t edges;                    /* tuile_edges_t */
+    uint8_t texturing;                /* tuile_texturing_t, or-ed */
+    bool dither;                      /* ordered, by an 8x8 matrix that is fixed to the window; RGB and grey formats, always for mono */
+    uint8_t edge_colour[3];           /* of edges */
+    tuile_overlay_fn overlay;         /* called for each tile when its faces are drawn; NULL = none */
+    void *overlay_context;
 } tuile_config_t;
 
+#define TUILE_SAMPLES_MAX 1920 /* along the width or the height of the window */
+
 /* Constant expressions for the size of the block, in bytes. */
-#define TUILE_FORMAT_BYTES(format) ((format) == TUILE_FACE_IDS ? 4u : 2u)
+/* Tile bytes as they go out. */
+#define TUILE_WIRE_BYTES(format, w, h)                                                                       \
+    ((format) == TUILE_FACE_IDS                                  ? (size_t)4 * (w) * (h)                      \
+     : (format) == TUILE_RGB666                                  ? (size_t)3 * (w) * (h)                      \
+     : (format) == TUILE_RGB444                                  ? ((size_t)3 * (w) * (h) + 1u) / 2u          \
+     : (format) == TUILE_RGB332 || (format) == TUILE_GREY8       ? (size_t)(w) * (h)                          \
+     : (format) == TUILE_GREY4                                   ? (((size_t)(w) + 1u) / 2u) * (h)            \
+     : (format) == TUILE_MONO_PAGES                              ? (size_t)(w) * (((h) + 7u) / 8u)            \
+     : (format) == TUILE_MONO_ROWS                               ? (((size_t)(w) + 7u) / 8u) * (h)            \
+                                                                 : (size_t)2 * (w) * (h))
+/* Bytes of a sample while a tile is drawn: 16 bits of colour in the wire's own steps or of luminance; 4 where colours are kept whole. */
+#define TUILE_SAMPLE_BYTES(format, dither) \
+    ((format) == TUILE_FACE_IDS || (format) == TUILE_RGB666 || ((dither) && ((format) <= TUILE_RGB332)) ? 4u : 2u)
+/* Does a tile become wire bytes in a step of its own? Else it is drawn in them. */
+#define TUILE_RESOLVES(format, samples, dither) \
+    ((format) != TUILE_FACE_IDS && ((format) > TUILE_FACE_IDS || (samples) > 1 || (dither)))
 #define TUILE_ALIGN8(n) (((n) + 7u) & ~(size_t)7u)
 #define TUILE_ALIGN64(n) (((n) + 63u) & ~(size_t)63u)
-#define TUILE_STATE_BYTES 1024u /* the renderer itself: an upper bound, asserted */
+#define TUILE_STATE_BYTES 1280u /* the renderer itself: an upper bound, asserted */
 #define TUILE_CLIP_BYTES 512u   /* room for one clipped face of up to four corners */
 /* The same for more corners: to be added to the sizes below. A plane may turn n vertices of a face that is not convex into 3 n / 2,
  * and there are six: n * 1.5^6 vertices of 8 bytes. */
 #define TUILE_CORNERS_BYTES(corners) ((corners) > 4u ? 96u * (size_t)(corners) : 0u)
 /* State, tile buffers, their depth, one shading ramp and the table of tile rows. */
-#define TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers)                              \
-    (TUILE_STATE_BYTES + TUILE_ALIGN64(2u * (tile_w) * (tile_h)) +                              \
-     (buffers)*TUILE_ALIGN64((size_t)TUILE_FORMAT_BYTES(format) * (tile_w) * (tile_h)) + 128u + \
+#define TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers)                    \
+    (TUILE_STATE_BYTES + TUILE_ALIGN64(2u * (tile_w) * (tile_h)) +                    \
+     (buffers)*TUILE_ALIGN64(TUILE_WIRE_BYTES(format, tile_w, tile_h)) + 128u +       \
      TUILE_ALIGN8(2u * (((height) + (tile_h)-1u) / (tile_h))))
+/* What more than that a renderer takes with effects, anti-aliasing, dithering or a format that is resolved: to be added. `samples`
+ * is 1, 2 or 4, along one axis. */
+#define TUILE_SAMPLE_COUNT(tile_w, tile_h, samples) ((size_t)(tile_w) * (tile_h) * (samples) * (samples))
+#define TUILE_DEPTH_EXTRA_BYTES(tile_w, tile_h, samples) \
+    (TUILE_ALIGN64(2u * TUILE_SAMPLE_COUNT(tile_w, tile_h, samples)) - TUILE_ALIGN64(2u * (tile_w) * (tile_h)))
+#define TUILE_WORKING_BYTES(tile_w, tile_h, format, samples, dither)                                    \
+    (TUILE_RESOLVES(format, samples, dither)                                                            \
+         ? TUILE_ALIGN64(TUILE_SAMPLE_BYTES(format, dither) * TUILE_SAMPLE_COUNT(tile_w, tile_h, samples)) \
+         : (size_t)0)
+#define TUILE_NUMBER_BYTES(tile_w, tile_h, samples) TUILE_ALIGN64(2u * TUILE_SAMPLE_COUNT(tile_w, tile_h, samples))
+#define TUILE_SURFACE_BYTES(cluster_vertices) (16u + 4u * (size_t)(cluster_vertices) + 2u * TUILE_CLIP_BYTES)
 /* The least block in which TUILE_ZBUFFER draws any scene whose clusters have at most cluster_vertices vertices and whose faces at
  * most four corners. Other methods have no depth of a tile and other things (tuile_init tells the size); so has TUILE_TREE a least
  * block that draws any scene of objects that planes separate. TUILE_SCANLINE, TUILE_WARNOCK and TUILE_PAINTER also want room for

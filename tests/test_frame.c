@@ -201,7 +201,7 @@ static void a_configuration_out_of_range_is_an_argument_error(void **state) {
         {.width = 8, .height = 1025},
         {.width = 8, .height = 8, .tile_width = 1025},
         {.width = 8, .height = 8, .tile_height = 1025},
-        {.width = 8, .height = 8, .format = 3},
+        {.width = 8, .height = 8, .format = TUILE_FORMAT_COUNT},
         {.width = 8, .height = 8, .method = TUILE_TREE + 1},
         {.width = 8, .height = 8, .shade = 2},
         {.width = 8, .height = 8, .tie = 2},

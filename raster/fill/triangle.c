@@ -16,28 +16,9 @@
 
 #include "triangle.h"
 
+#include "gradient.h"
+
 #define SMALL_DEPTH (1 << 17)
-
-typedef struct gradient {
-    int64_t dx, dy; /* Q.16 per pixel */
-} gradient_t;
-
-/* c1, c2: the values at v1 and v2 less the one at v0; unit_bits: log2 of (Q.16 of a value unit) * 16 px. */
-TUILE_INLINE gradient_t gradient_exact(int32_t c1, int32_t c2, int32_t x1, int32_t y1, int32_t x2, int32_t y2, int32_t area,
-                                       unsigned unit_bits) {
-    const int64_t nx = (int64_t)c2 * y1 - (int64_t)c1 * y2, ny = (int64_t)c1 * x2 - (int64_t)c2 * x1; /* < 2^40 */
-    return (gradient_t){fixed_floor_div64(fixed_shift_left64(nx, unit_bits), area),
-                        fixed_floor_div64(fixed_shift_left64(ny, unit_bits), area)};
-}
-
-TUILE_INLINE gradient_t gradient_small(int32_t c1, int32_t c2, int32_t x1, int32_t y1, int32_t x2, int32_t y2, int32_t reciprocal,
-                                       unsigned unit_bits) {
-    return (gradient_t){((int64_t)(c2 * y1 - c1 * y2) * reciprocal) >> (31 - unit_bits),
-                        ((int64_t)(c1 * x2 - c2 * x1) * reciprocal) >> (31 - unit_bits)};
-}
-
-/* What the fraction of a pixel adds, x and y in sixteenths: the whole pixels are added modulo 2^64 afterwards. */
-TUILE_INLINE int64_t gradient_part(gradient_t g, int32_t x, int32_t y) { return (g.dx * x + g.dy * y) >> 4; }
 
 TUILE_INLINE uint64_t shade_pack(int64_t depth, int64_t light) { return ((uint64_t)depth << 32) + (uint64_t)light; }
 

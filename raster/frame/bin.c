@@ -24,8 +24,13 @@ int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster)
         t->stats.clusters_facing_away++;
         return BIN_CULLED;
     }
-    if (vertices > frame_slots_left(t)) { return FRAME_FULL; }
-    bin_cluster_at(t, bytes, t->vertex_count, cluster);
+    const uint32_t ahead = t->numbers != NULL ? SOURCE_SLOTS : 0;
+    if (vertices + ahead > frame_slots_left(t)) { return FRAME_FULL; }
+    if (ahead) {
+        *(source_slot_t *)(void *)(t->vertices + t->vertex_count) =
+            (source_slot_t){.first_vertex = first_vertex, .instance = t->instance_number};
+    }
+    bin_cluster_at(t, bytes, t->vertex_count + ahead, cluster);
     cluster->any_outside =
         vertex_stage(&t->transform, cluster->positions,
                      t->config.shade == TUILE_FLAT ? NULL : (const int8_t *)model->normals + 3 * (size_t)first_vertex, vertices,
@@ -34,7 +39,7 @@ int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster)
         cluster->any_outside |=
             vertex_fractions(&t->transform, cluster->positions, cluster->fractions, vertices, cluster->vertices);
     }
-    t->vertex_count += vertices;
+    t->vertex_count += vertices + ahead;
     t->cluster_end = t->vertex_count;
     t->stats.vertices += vertices;
     t->stats.faces_tested += faces;
@@ -54,6 +59,8 @@ void bin_cluster_at(const tuile_t *t, const uint8_t *bytes, uint32_t slot, frame
     cluster->vertices = t->vertices + slot;
     cluster->any_outside = true;
     cluster->first_face = t->face_base + first_face;
+    cluster->source = (uint16_t)(t->numbers != NULL ? slot - SOURCE_SLOTS : 0);
+    cluster->coloured = t->numbers != NULL && ((const source_slot_t *)(const void *)&t->vertices[cluster->source])->colours != 0;
 }
 
 static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
@@ -77,7 +84,10 @@ void bin_begin(tuile_t *t) {
 int bin_instance_open(tuile_t *t, unsigned number) {
     const tuile_scene_t *scene = t->scene;
     t->instance = &scene->instances[number];
-    const int error = transform_make(&t->transform, scene, t->instance, t->config.width, t->config.height);
+    t->instance_number = (uint16_t)number;
+    tuile_scene_t sampled = *scene;
+    sampled.camera = t->camera;
+    const int error = transform_make(&t->transform, &sampled, t->instance, t->config.width, t->config.height);
     if (error) { return error; }
     transform_region(&t->transform, &t->region);
     t->material_base = (uint16_t)frame_material_base(scene, number);

@@ -5,6 +5,7 @@
 #include "frame.h"
 
 #include "../geometry/wide.h"
+#include "../memory.h"
 
 /* Twice the signed area in (1/16 px)^2, positive for counter-clockwise as seen (the window's y points down). Inside the guard
  * band differences are below 2^15, so the products are below 2^30. */
@@ -24,7 +25,15 @@ TUILE_INLINE record_t *record_claim(tuile_t *t) {
 
 /* Hangs the claimed record into the bucket of its first row, or draws it at once. */
 TUILE_INLINE void record_emit(tuile_t *t, record_t *record, int32_t row, uint32_t id) {
-    if (t->record_bytes == sizeof(record_id_t)) { ((record_id_t *)(void *)record)->id = id + 1; }
+    if (t->record_bytes == sizeof(record_id_t)) {
+        if (t->numbers != NULL) {
+            record_surface_t *surface = frame_record_surface(record);
+            surface->source = t->source;
+            surface->green = surface->blue = record->light;
+        } else {
+            ((record_id_t *)(void *)record)->id = id + 1;
+        }
+    }
     t->stats.faces_binned++;
     if (TUILE_UNLIKELY(t->immediate)) {
         t->draw_now(t, t->record_count);
@@ -159,13 +168,51 @@ static int bin_polygon(tuile_t *t, const polygon_ring_t *ring, const vertex_t *b
     return FRAME_OK;
 }
 
+/* ---- clipped faces, where shading is deferred: | source_slot_t | vertices | their attributes | ---- */
+
+#define CLIPPED_SLOTS (uint32_t)(sizeof(clip_attributes_t) / sizeof(vertex_t))
+
+static void clipped_attributes(const tuile_t *t, const frame_cluster_t *cluster, clip_face_t *face, uint32_t slot) {
+    const tuile_model_t *model = t->instance->model;
+    const source_slot_t *source = (const source_slot_t *)(const void *)&t->vertices[cluster->source];
+    const size_t first = source->first_vertex;
+    face->attributes = (clip_attributes_t *)(void *)(t->vertices + slot);
+    if (model->texcoords) { face->texcoords = model->texcoords + 4 * first; }
+    if (model->colours) { face->colours = model->colours + 4 * first; }
+    if (source->colours) { face->lights = (const uint8_t *)(t->vertices + source->colours); }
+}
+
+/* The clipped face's vertices stand behind slot `at` and its source slot, its attributes farther on. */
+static void clipped_source(tuile_t *t, const frame_cluster_t *cluster, const clip_face_t *face, uint32_t at, uint32_t count) {
+    const source_slot_t *whole = (const source_slot_t *)(const void *)&t->vertices[cluster->source];
+    const uint32_t slot = at + SOURCE_SLOTS + count;
+    memmove(t->vertices + slot, face->attributes, count * sizeof(clip_attributes_t));
+    *(source_slot_t *)(void *)(t->vertices + at) = (source_slot_t){.first_vertex = whole->first_vertex,
+                                                                   .instance = whole->instance,
+                                                                   .attributes = (uint16_t)slot,
+                                                                   .is_coloured = whole->colours != 0};
+    t->vertex_count = slot + count * CLIPPED_SLOTS;
+    t->source = (uint16_t)at;
+}
+
 /* A face of which some corner is beyond near plane, far plane or guard band. */
 static TUILE_NOINLINE int bin_clipped(tuile_t *t, const frame_cluster_t *cluster, const uint8_t *corners, unsigned count,
                                       uint8_t material, const int8_t *normal, uint32_t id) {
-    const clip_face_t face = {cluster->positions, cluster->fractions, cluster->vertices, corners, count};
-    vertex_t *out = t->vertices + t->vertex_count;
-    const uint32_t mark = t->vertex_count;
-    const int left = clip_polygon(&t->transform, &face, out, frame_slots_left(t));
+    clip_face_t face = {.positions = cluster->positions,
+                        .fractions = cluster->fractions,
+                        .vertices = cluster->vertices,
+                        .corners = corners,
+                        .count = count};
+    const uint32_t mark = t->vertex_count, source = t->source;
+    uint32_t room = frame_slots_left(t), base = mark;
+    if (t->numbers != NULL) {
+        if (room < SOURCE_SLOTS) { return FRAME_FULL; }
+        base += SOURCE_SLOTS;
+        room = (room - SOURCE_SLOTS) / (1 + CLIPPED_SLOTS);
+        clipped_attributes(t, cluster, &face, base + room);
+    }
+    vertex_t *out = t->vertices + base;
+    const int left = clip_polygon(&t->transform, &face, out, room);
     int result = FRAME_OK;
 
     if (left < 0) { return FRAME_FULL; }
@@ -174,22 +221,25 @@ static TUILE_NOINLINE int bin_clipped(tuile_t *t, const frame_cluster_t *cluster
         t->stats.faces_clipped_away++;
         return FRAME_OK;
     }
-    t->vertex_count += (uint32_t)left;
+    t->vertex_count = base + (uint32_t)left;
+    if (t->numbers != NULL) { clipped_source(t, cluster, &face, mark, (uint32_t)left); }
     const uint32_t binned = t->record_count;
     bool lit_alike = true;
     for (int i = 1; i < left; i++) {
         lit_alike &= (uint8_t)out[i].depth_light == (uint8_t)out[0].depth_light;
     }
+    lit_alike &= !cluster->coloured;
     if (left == 3) {
-        result = bin_one_triangle(t, mark, 0, 1, 2, material, normal, id);
+        result = bin_one_triangle(t, base, 0, 1, 2, material, normal, id);
     } else if (normal == NULL && !lit_alike && left <= 100) {
         for (uint32_t i = 1; i + 1 < (uint32_t)left && result == FRAME_OK; i++) {
-            result = bin_one_triangle(t, mark, 0, i, i + 1, material, NULL, id);
+            result = bin_one_triangle(t, base, 0, i, i + 1, material, NULL, id);
         }
     } else {
         const polygon_ring_t ring = {out, NULL, NULL, (uint32_t)left};
         result = bin_polygon(t, &ring, out, material, normal, id);
     }
+    t->source = (uint16_t)source;
     if (t->immediate || (result == FRAME_OK && t->record_count == binned)) { t->vertex_count = mark; }
     return result;
 }
@@ -293,12 +343,16 @@ static int bin_polygon_any(tuile_t *t, const frame_cluster_t *cluster, const uin
         lit_alike &= (uint8_t)v[corner[i]].depth_light == (uint8_t)v[corner[0]].depth_light;
     }
     /* Gouraud: light is affine on a triangle only, so a smooth convex polygon is cut into a fan. */
+    lit_alike &= !cluster->coloured;
     const bool fan = normal == NULL && !lit_alike && flags & MODEL_FACE_CONVEX;
     const unsigned parts = fan ? corners - 2 : 1;
     for (unsigned p = 1; p <= parts && result == FRAME_OK; p++) {
         const uint8_t part[3] = {corner[0], corner[p], corner[p + 1]};
         if (outside) {
             result = bin_clipped(t, cluster, fan ? part : corner, fan ? 3 : corners, material, normal, id);
+        } else if (far_apart && (fan || corners == 3) && t->numbers != NULL) {
+            const polygon_ring_t ring = {v, part, NULL, 3}; /* a listed polygon's corners stand where their attributes are told by */
+            result = bin_polygon(t, &ring, v, material, normal, id);
         } else if (far_apart && (fan || corners == 3)) {
             result = bin_far_triangle(t, cluster, part, material, normal, id);
         } else if (fan || corners == 3) {
@@ -334,6 +388,7 @@ static TUILE_NOINLINE int bin_polygons(tuile_t *t, const frame_cluster_t *cluste
 }
 
 int face_bin_all(tuile_t *t, const frame_cluster_t *cluster) {
+    t->source = cluster->source;
     const unsigned count = model_u16(cluster->bytes + CLUSTER_AT_FACE_COUNT);
     return cluster->bytes[CLUSTER_AT_KIND] != MODEL_CLUSTER_TRIANGLES ? bin_polygons(t, cluster, count)
            : cluster->any_outside                                     ? bin_outside_triangles(t, cluster, count)
@@ -381,6 +436,7 @@ static int bin_polygon_run(tuile_t *t, const frame_cluster_t *cluster, unsigned 
 }
 
 int face_bin_run(tuile_t *t, const frame_cluster_t *cluster, unsigned first, unsigned end, bool backwards) {
+    t->source = cluster->source;
     return cluster->bytes[CLUSTER_AT_KIND] != MODEL_CLUSTER_TRIANGLES ? bin_polygon_run(t, cluster, first, end, backwards)
                                                                       : bin_triangle_run(t, cluster, first, end, backwards);
 }

@@ -15,6 +15,7 @@ const char *tuile_error_text(int error) {
     case TUILE_ERROR_LIMITS:
         return "a model has larger clusters, faces with more corners or a deeper tree than the renderer was laid out for";
     case TUILE_ERROR_TREE: return "a model has no display tree";
+    case TUILE_ERROR_EFFECTS: return "the scene asks for effects that the renderer was not laid out or built for";
     default: return "unknown error";
     }
 }
@@ -38,27 +39,57 @@ static const visibility_method_t *method_of(uint8_t number) {
     }
 }
 
+/* What of a block grows with the tile, but for the method's own memory; c in pixels. */
+static size_t tile_bytes_of(const tuile_config_t *c) {
+    const unsigned samples = 1u << c->aa;
+    size_t bytes = c->buffers * TUILE_ALIGN64(TUILE_WIRE_BYTES(c->format, c->tile_width, c->tile_height));
+    bytes += TUILE_WORKING_BYTES(c->tile_width, c->tile_height, c->format, samples, c->dither);
+    if (c->effects) { bytes += TUILE_NUMBER_BYTES(c->tile_width, c->tile_height, samples); }
+    return bytes;
+}
+
+/* Rows that a tile's height must be a multiple of. */
+static uint16_t rows_together(const tuile_config_t *c) { return c->format == TUILE_MONO_PAGES ? 8 : 1; }
+
+/* Columns that a tile's width must be a multiple of, unless it reaches the window's right end. */
+static uint16_t columns_together(const tuile_config_t *c) {
+    return c->format == TUILE_MONO_ROWS ? 8 : c->format == TUILE_RGB444 || c->format == TUILE_GREY4 ? 2 : 1;
+}
+
 /* Tile height that leaves five sixths of the block to the arena: a second pass costs more than lower tiles do. */
-static uint16_t default_tile_height(const tuile_config_t *c, size_t size_bytes) {
-    const size_t depth = c->method == TUILE_ZBUFFER ? sizeof(uint16_t) : 0;
-    const size_t row_bytes = (size_t)c->tile_width * (depth + c->buffers * TUILE_FORMAT_BYTES(c->format));
-    size_t rows = size_bytes / 6u / row_bytes;
-    rows = rows > 24 ? 24 : rows < 1 ? 1 : rows;
-    return (uint16_t)(rows > c->height ? c->height : rows);
+static uint16_t default_tile_height(const tuile_config_t *given, size_t size_bytes) {
+    tuile_config_t c = *given;
+    const size_t together = rows_together(&c);
+    c.tile_height = (uint16_t)together;
+    const size_t depth = c.method == TUILE_ZBUFFER ? sizeof(uint16_t) << 2 * c.aa : 0;
+    const size_t band_bytes = (size_t)c.tile_width * together * depth + tile_bytes_of(&c);
+    size_t rows = size_bytes / 6u / band_bytes * together;
+    rows = rows > 24 ? 24 : rows < together ? together : rows;
+    return (uint16_t)(rows > c.height ? c.height : rows);
 }
 
 static bool config_complete(tuile_config_t *c, size_t size_bytes) {
     if (c->width == 0 || c->height == 0 || c->width > TUILE_WINDOW_MAX_PX || c->height > TUILE_WINDOW_MAX_PX || c->buffers > 2 ||
-        c->format > TUILE_FACE_IDS || method_of(c->method) == NULL || c->shade > TUILE_GOURAUD || c->tie > TUILE_TIE_LAST ||
+        c->format >= TUILE_FORMAT_COUNT || method_of(c->method) == NULL || c->shade > TUILE_GOURAUD || c->tie > TUILE_TIE_LAST ||
         c->tile_width > TUILE_WINDOW_MAX_PX || c->tile_height > TUILE_WINDOW_MAX_PX || c->cluster_vertices > 255 ||
         c->corners > 255 || c->row_first > c->height || c->row_end > c->height || (c->row_end != 0 && c->row_end < c->row_first) ||
-        c->warnock > 31) {
+        c->warnock > 31 || c->aa > TUILE_AA_4X4 || c->effects > 3 || c->edges > TUILE_EDGES_OUTLINE || c->texturing > 15 ||
+        c->width << c->aa > TUILE_SAMPLES_MAX || c->height << c->aa > TUILE_SAMPLES_MAX ||
+        (c->edges != TUILE_EDGES_NONE && !(c->effects & TUILE_LAYERS)) ||
+        (c->format == TUILE_FACE_IDS && (c->aa || c->dither || c->effects || c->overlay))) {
         return false;
     }
+    if (c->effects & TUILE_LAYERS) { c->effects |= TUILE_SURFACES; }
+    if (c->format == TUILE_MONO_PAGES || c->format == TUILE_MONO_ROWS) { c->dither = true; }
+    if (TUILE_SAMPLE_BYTES(c->format, c->dither) == 4 && c->format != TUILE_FACE_IDS) { c->effects |= TUILE_SURFACES; }
     if (c->buffers == 0) { c->buffers = 2; }
     if (c->tile_width == 0 || c->tile_width > c->width) { c->tile_width = c->width; }
     if (c->tile_height == 0) { c->tile_height = default_tile_height(c, size_bytes); }
     if (c->tile_height > c->height) { c->tile_height = c->height; }
+    if ((c->tile_height % rows_together(c) != 0 && c->tile_height != c->height) ||
+        (c->tile_width % columns_together(c) != 0 && c->tile_width != c->width)) {
+        return false;
+    }
     if (c->cluster_vertices == 0) { c->cluster_vertices = 255; }
     if (c->corners == 0) { c->corners = 4; }
     if (c->tree_depth == 0) { c->tree_depth = 64; }
@@ -68,17 +99,32 @@ static bool config_complete(tuile_config_t *c, size_t size_bytes) {
     return true;
 }
 
+/* Window and tiles in samples. */
+static void config_sample(tuile_config_t *c) {
+    c->width = (uint16_t)(c->width << c->aa);
+    c->height = (uint16_t)(c->height << c->aa);
+    c->tile_width = (uint16_t)(c->tile_width << c->aa);
+    c->tile_height = (uint16_t)(c->tile_height << c->aa);
+    c->row_first = (uint16_t)(c->row_first << c->aa);
+    c->row_end = (uint16_t)(c->row_end << c->aa);
+}
+
 int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, size_t size_bytes, size_t *wanted_bytes) {
     if (renderer == NULL || config == NULL) { return TUILE_ERROR_ARGUMENT; }
     tuile_config_t c = *config;
     *renderer = NULL;
     if (!config_complete(&c, size_bytes)) { return TUILE_ERROR_ARGUMENT; }
+    const tuile_config_t given = c;
     const visibility_method_t *method = method_of(c.method);
     const size_t pixels = (size_t)c.tile_width * c.tile_height;
+    const size_t working_bytes = TUILE_WORKING_BYTES(c.tile_width, c.tile_height, c.format, 1u << c.aa, c.dither);
+    const size_t number_bytes = c.effects ? TUILE_NUMBER_BYTES(c.tile_width, c.tile_height, 1u << c.aa) : 0;
+    config_sample(&c);
     const size_t tile_bytes = TUILE_ALIGN64(method->tile_bytes ? method->tile_bytes(&c) : 0);
-    const size_t least = TUILE_LEAST_BYTES((size_t)c.height, (size_t)c.tile_width, (size_t)c.tile_height, c.format,
+    const size_t least = TUILE_LEAST_BYTES((size_t)given.height, (size_t)given.tile_width, (size_t)given.tile_height, c.format,
                                            (size_t)c.buffers, (size_t)c.cluster_vertices) -
-                         TUILE_ALIGN64(2u * pixels) + tile_bytes + TUILE_CORNERS_BYTES(c.corners) +
+                         TUILE_ALIGN64(2u * pixels) + tile_bytes + TUILE_CORNERS_BYTES(c.corners) + working_bytes + number_bytes +
+                         (c.effects ? TUILE_SURFACE_BYTES(c.cluster_vertices) : 0) +
                          /* the stack, the order of up to four instances, the tag of a ramp */
                          (c.method == TUILE_TREE ? TUILE_ALIGN8(4u * (size_t)c.tree_depth) + 8 + 8 : 0);
     if (wanted_bytes) { *wanted_bytes = least; }
@@ -89,6 +135,9 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     uint8_t *at = (uint8_t *)block + TUILE_STATE_BYTES;
     memset(t, 0, sizeof *t);
     t->config = c;
+    t->given = given;
+    t->samples = c.aa;
+    t->pixel_kind = (uint8_t)pixel_kind_of(c.format, c.dither);
     t->stats.size_bytes = (uint32_t)size_bytes;
     t->stats.least_bytes = (uint32_t)least;
     t->tile_columns = (uint16_t)((c.width + c.tile_width - 1) / c.tile_width);
@@ -97,23 +146,27 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     at += tile_bytes;
     for (unsigned b = 0; b < c.buffers; b++) {
         t->colours[b] = at;
-        at += TUILE_ALIGN64((size_t)TUILE_FORMAT_BYTES(c.format) * pixels);
+        at += TUILE_ALIGN64(TUILE_WIRE_BYTES(c.format, given.tile_width, given.tile_height));
     }
+    if (working_bytes) { t->working = at; }
+    at += working_bytes;
+    if (number_bytes) { t->numbers = (uint16_t *)(void *)at; }
+    at += number_bytes;
     t->buckets = (uint16_t *)(void *)at;
     at += TUILE_ALIGN8(2u * (size_t)t->tile_rows);
     t->arena = at;
     t->arena_end = (uint8_t *)block + (size_bytes & ~(size_t)7u);
-    t->record_bytes = c.format == TUILE_FACE_IDS ? sizeof(record_id_t) : sizeof(record_t);
+    t->record_bytes = c.format == TUILE_FACE_IDS || c.effects ? sizeof(record_id_t) : sizeof(record_t);
     t->rows_hint = t->tile_rows;
     t->method = method;
-    t->span_kind = c.format == TUILE_FACE_IDS ? SPAN_IDS : c.shade == TUILE_GOURAUD ? SPAN_GOURAUD : SPAN_FLAT;
+    t->span_kind = c.format == TUILE_FACE_IDS ? SPAN_IDS : c.shade == TUILE_GOURAUD && !c.effects ? SPAN_GOURAUD : SPAN_FLAT;
     *renderer = t;
     return TUILE_OK;
 }
 
 size_t tuile_wanted(const tuile_t *t) { return t->wanted_bytes; }
 
-const tuile_config_t *tuile_config(const tuile_t *t) { return &t->config; }
+const tuile_config_t *tuile_config(const tuile_t *t) { return &t->given; }
 
 /* ---- begin ---- */
 
@@ -135,11 +188,26 @@ static int check_scene(const tuile_t *t, const tuile_scene_t *scene, uint32_t *m
     return *materials > 256 ? TUILE_ERROR_ARGUMENT : TUILE_OK;
 }
 
+/* The camera in samples. */
+static int camera_sample(tuile_t *t, const tuile_scene_t *scene) {
+    q16_16_t *const lengths[4] = {&t->camera.focal_x, &t->camera.focal_y, &t->camera.centre_x, &t->camera.centre_y};
+    t->camera = scene->camera;
+    for (unsigned i = 0; i < 4; i++) {
+        const int64_t scaled = (int64_t)*lengths[i] * (1 << t->samples);
+        if (scaled > INT32_MAX || scaled < INT32_MIN) { return TUILE_ERROR_RANGE; }
+        *lengths[i] = (q16_16_t)scaled;
+    }
+    return TUILE_OK;
+}
+
 int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     uint32_t materials, faces;
     if (t == NULL || scene == NULL) { return TUILE_ERROR_ARGUMENT; }
     if (t->in_frame) { return TUILE_ERROR_SEQUENCE; }
     int error = check_scene(t, scene, &materials, &faces);
+    if (error) { return error; }
+
+    error = camera_sample(t, scene);
     if (error) { return error; }
 
     const uint32_t size = t->stats.size_bytes, least = t->stats.least_bytes;
@@ -148,7 +216,7 @@ int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     t->stats.least_bytes = least;
     t->stats.faces = faces;
     t->scene = scene;
-    t->background = resolve_colour(t->config.format, scene->background[0], scene->background[1], scene->background[2]);
+    t->background = pixel_pack((pixel_kind_t)t->pixel_kind, PIXEL_RGB(scene->background[0], scene->background[1], scene->background[2]));
 
     /* One ramp is always there; the others may take an eighth of the arena. */
     const size_t arena = (size_t)(t->arena_end - t->arena), ramp = RAMP_BYTES + sizeof(int16_t);
@@ -182,7 +250,7 @@ static void tile_place(tuile_t *t, uint32_t row, uint32_t column) {
     t->tile.bottom = t->tile.top + c->tile_height < c->height ? t->tile.top + c->tile_height : c->height;
     t->tile.stride_px = t->tile.right - t->tile.left;
     t->tile.depth = NULL;
-    t->tile.colour = t->colours[t->next_buffer];
+    t->tile.colour = t->numbers ? t->numbers : t->working ? t->working : t->colours[t->next_buffer];
 }
 
 int tuile_next(tuile_t *t, tuile_tile_t *tile) {
@@ -197,12 +265,13 @@ int tuile_next(tuile_t *t, tuile_tile_t *tile) {
         tile_place(t, row, column);
         const int error = pass_draw(t, row, column);
         if (error) { return error; }
-        tile->x = (uint16_t)t->tile.left;
-        tile->y = (uint16_t)t->tile.top;
-        tile->width = (uint16_t)(t->tile.right - t->tile.left);
-        tile->height = (uint16_t)(t->tile.bottom - t->tile.top);
+        tile->x = (uint16_t)(t->tile.left >> t->samples);
+        tile->y = (uint16_t)(t->tile.top >> t->samples);
+        tile->width = (uint16_t)((t->tile.right - t->tile.left) >> t->samples);
+        tile->height = (uint16_t)((t->tile.bottom - t->tile.top) >> t->samples);
         tile->bytes = t->colours[t->next_buffer];
-        tile->size_bytes = (uint32_t)tile->width * tile->height * TUILE_FORMAT_BYTES(t->config.format);
+        tile->size_bytes = (uint32_t)TUILE_WIRE_BYTES(t->config.format, tile->width, tile->height);
+        if (t->working) { resolve_tile(t); }
         t->next_buffer = (uint8_t)((t->next_buffer + 1) % t->config.buffers);
         t->next_tile += t->config.tile_step;
         t->stats.tiles++;

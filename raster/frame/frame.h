@@ -18,6 +18,7 @@
 #include "../geometry/model.h"
 #include "../geometry/transform.h"
 #include "../geometry/vertex.h"
+#include "../pixel.h"
 #include "../tuile.h"
 
 #define RAMP_COLOURS 64
@@ -40,6 +41,26 @@ typedef struct record_id {
     uint32_t id;
 } record_id_t;
 
+/* Deferred shading wants to know where the corners' attributes are. */
+typedef struct record_surface {
+    record_t record;     /* flat, coloured light: `light` is red */
+    uint16_t source;     /* slot of a source_slot_t */
+    uint8_t green, blue; /* flat, coloured light */
+} record_surface_t;
+_Static_assert(sizeof(record_surface_t) == sizeof(record_id_t), "records are copied as the larger of both");
+
+/* Stands right before the vertices of a cluster, or of a clipped face, where shading is deferred: what their attributes are. */
+typedef struct source_slot {
+    uint32_t first_vertex; /* of the model: that of the first slot behind this one */
+    uint16_t instance;
+    uint16_t colours;    /* slot of the light at the vertices: 4 bytes each, red, green, blue, highlight, 255 = 1.0; 0: light is
+                            the vertex's own number */
+    uint16_t attributes; /* clipped: slot of the vertices' clip_attributes_t; 0: they are the model's */
+    uint16_t is_coloured; /* clipped: attributes have light */
+    uint32_t unused;
+} source_slot_t;
+#define SOURCE_SLOTS 2u
+
 /* Heads a polygon among the vertices: `count` corners; listed, as bytes relative to slot `base`, in the slots behind this one, or,
  * for a clipped polygon, the `count` vertices from slot `base` on. */
 typedef struct polygon_slot {
@@ -47,6 +68,7 @@ typedef struct polygon_slot {
     uint16_t listed, unused;
 } polygon_slot_t;
 _Static_assert(sizeof(vertex_t) == 8 && sizeof(polygon_slot_t) == 8 && sizeof(record_t) == 8, "one slot");
+_Static_assert(sizeof(source_slot_t) == 16 && sizeof(clip_attributes_t) == 16, "two slots");
 
 /* Where a face may be seen: pixels left ... right - 1, top ... bottom - 1; depths from far to near in 1/256 step, near the larger.
  */
@@ -110,11 +132,16 @@ extern const visibility_method_t visibility_tree;
 
 typedef struct tuile {
     const visibility_method_t *method;
-    tuile_config_t config;
+    tuile_config_t config; /* in samples: window and tiles are as many times as large as there are samples along them */
+    tuile_config_t given;  /* the same in pixels */
     const tuile_scene_t *scene;
     tuile_stats_t stats;
     void *tile_memory;
-    uint8_t *colours[2];
+    uint8_t *colours[2]; /* wire bytes */
+    void *working;       /* samples of a tile; NULL: they are the wire bytes */
+    uint16_t *numbers;   /* deferred shading: which face is seen at each sample, its record's number + 1; else NULL */
+    uint8_t samples;     /* log2 of those along a pixel */
+    uint8_t pixel_kind;  /* pixel_kind_t */
     uint16_t *buckets; /* one per tile row of the window */
     uint8_t *arena, *arena_end;
     uint16_t tile_columns, tile_rows;
@@ -124,7 +151,8 @@ typedef struct tuile {
     uint16_t *ramps;
     int16_t *ramp_tags;
     uint16_t ramp_count;
-    uint16_t background;
+    uint32_t background; /* a sample */
+    tuile_camera_t camera; /* the scene's, in samples */
     /* Display trees. */
     uint32_t *tree_stack;     /* config.tree_depth */
     uint16_t *instance_order; /* visibility/arrange.h */
@@ -153,6 +181,8 @@ typedef struct tuile {
     uint8_t sides;          /* SIDE_...: which sides of faces are wanted */
     uint32_t face_base;     /* id of the first face of the instance */
     uint16_t material_base; /* of the instance's model */
+    uint16_t instance_number;
+    uint16_t source; /* of the faces that are being binned */
     raster_tile_t tile;
     span_kind_t span_kind;
     /* The row of tiles that is being drawn. */
@@ -179,6 +209,8 @@ TUILE_INLINE record_t *frame_record(const tuile_t *t, uint32_t number) {
     return (record_t *)(void *)(t->arena_end - (size_t)(number + 1) * t->record_bytes);
 }
 
+TUILE_INLINE record_surface_t *frame_record_surface(record_t *record) { return (record_surface_t *)(void *)record; }
+
 TUILE_INLINE uint32_t frame_record_id(const record_t *record) { return ((const record_id_t *)(const void *)record)->id; }
 
 /* ---- bin.c: clusters ---- */
@@ -194,6 +226,8 @@ typedef struct frame_cluster {
     vertex_t *vertices;
     bool any_outside;    /* some vertex may need clipping */
     uint32_t first_face; /* id - 1 of its first face */
+    uint16_t source;     /* slot of its source_slot_t where shading is deferred, else 0 */
+    bool coloured;       /* its vertices have colours (source_colour_t) */
 } frame_cluster_t;
 
 enum { BIN_CULLED = 2 };
@@ -265,24 +299,45 @@ polygon_ring_t frame_record_ring(const tuile_t *t, const record_t *record);
 /* The rows of pixel centres that a record's face covers. */
 void frame_record_rows(const tuile_t *t, const record_t *record, int32_t *first, int32_t *end);
 
-/* ---- resolve.c: colours in wire order ---- */
+/* ---- shade.c: deferred shading, t->numbers is not NULL ---- */
 
-/* The 16 bits that stand for a colour in a tile of this format. */
-uint16_t resolve_colour(uint8_t format, uint8_t red, uint8_t green, uint8_t blue);
+/* A tile of background, and no face seen in it yet. */
+void shade_clear(tuile_t *t);
 
-/* colour * light / 255, rounded. light 0 ... 255. */
-uint16_t resolve_lit(uint8_t format, const uint8_t colour[3], uint32_t light);
+/* The faces that are seen in the tile into its samples. */
+void shade_tile(tuile_t *t);
+
+/* Takes the place of draw_now: the face by the method, and at once into the samples. */
+void shade_now(tuile_t *t, uint32_t number);
+
+/* ---- resolve.c: samples to wire bytes ---- */
+
+/* The tile, whose samples are in t->working, to t->colours[t->next_buffer]. */
+void resolve_tile(const tuile_t *t);
 
 /* ---- ramp.c ---- */
 
-/* Materials are counted through the models of the scene, each model once: is this the first instance of its model? */
+/* Materials are counted through the models of the scene, each model once for each set of materials that stands in the place of its
+ * own: is this the first instance of it? */
 bool frame_first_use(const tuile_scene_t *scene, unsigned instance);
 
 /* The number of the first material of an instance's model. */
 uint32_t frame_material_base(const tuile_scene_t *scene, unsigned instance);
 
-/* The colour of a material, counted through the models of the scene. */
-const uint8_t *frame_material(const tuile_t *t, uint32_t material);
+/* A material, counted through the models of the scene. */
+tuile_material_t frame_material(const tuile_t *t, uint32_t material);
+
+/* The sample of a face in one colour: its material in the light of its record. */
+uint32_t frame_flat(const tuile_t *t, const record_t *record);
+
+/* What is drawn of a face in one value: the id, the number for deferred shading, or the colour. */
+TUILE_INLINE uint32_t frame_value(const tuile_t *t, const record_t *record, uint32_t number) {
+    if (t->span_kind == SPAN_IDS) { return frame_record_id(record); }
+    return t->numbers != NULL ? number + 1 : frame_flat(t, record);
+}
+
+/* Bytes of what methods draw into. */
+TUILE_INLINE size_t frame_sample_bytes(const tuile_t *t) { return t->span_kind == SPAN_IDS ? 4 : 2; }
 
 /* 64 colours from black to full light: made when they are first wanted, again when another material took their place. */
 void frame_ramp_make(tuile_t *t, uint32_t material, uint32_t slot);

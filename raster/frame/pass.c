@@ -17,7 +17,7 @@ static void pass_set(tuile_t *t, uint32_t first, uint32_t end, uint32_t column, 
     t->pass_column = (uint16_t)column;
     t->narrow = narrow;
     t->immediate = narrow && t->method->draw_now != NULL && !t->keep;
-    t->draw_now = t->method->draw_now;
+    t->draw_now = t->numbers != NULL ? shade_now : t->method->draw_now;
     t->region.top = (uint16_t)(first * c->tile_height);
     t->region.bottom = (uint16_t)(end * c->tile_height < c->height ? end * c->tile_height : c->height);
     t->region.left = (uint16_t)(narrow ? column * c->tile_width : 0);
@@ -137,14 +137,17 @@ void frame_fill_words(void *bytes, uint32_t word, size_t size_bytes) {
 }
 
 static void tile_clear(tuile_t *t) {
-    const bool ids = t->config.format == TUILE_FACE_IDS;
     const size_t pixels = (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top);
     if (t->method->clear) { t->method->clear(t); }
-    frame_fill_words(t->tile.colour, ids ? 0 : t->background * 0x10001u, pixels * TUILE_FORMAT_BYTES(t->config.format));
+    if (t->numbers != NULL) {
+        shade_clear(t);
+    } else {
+        frame_fill_words(t->tile.colour, t->span_kind == SPAN_IDS ? 0 : t->background * 0x10001u, pixels * frame_sample_bytes(t));
+    }
 }
 
 static void draw_now_traced(tuile_t *t, uint32_t number) {
-    t->method->draw_now(t, number);
+    (t->numbers != NULL ? shade_now : t->method->draw_now)(t, number);
     trace_face(t, number);
 }
 
@@ -178,6 +181,7 @@ int pass_draw(tuile_t *t, uint32_t row, uint32_t column) {
             if (t->config.trace) { trace_tile(t); }
             pass_measure(t, (size_t)(t->stream_end - t->stream));
             t->stats.tiles_narrow += t->narrow;
+            if (result == 0 && t->numbers != NULL) { shade_tile(t); }
             return result;
         }
         t->shrunk = true;

@@ -1,9 +1,13 @@
 /* The colours of materials, and the ramps from black to full light that Gouraud shading looks its pixels up in. */
 #include "frame.h"
 
+static bool same_materials(const tuile_instance_t *a, const tuile_instance_t *b) {
+    return a->model == b->model && a->materials == b->materials;
+}
+
 bool frame_first_use(const tuile_scene_t *scene, unsigned instance) {
     unsigned first = 0;
-    while (scene->instances[first].model != scene->instances[instance].model) {
+    while (!same_materials(&scene->instances[first], &scene->instances[instance])) {
         first++;
     }
     return first == instance;
@@ -11,28 +15,35 @@ bool frame_first_use(const tuile_scene_t *scene, unsigned instance) {
 
 uint32_t frame_material_base(const tuile_scene_t *scene, unsigned instance) {
     uint32_t base = 0;
-    for (unsigned i = 0; scene->instances[i].model != scene->instances[instance].model; i++) {
+    for (unsigned i = 0; !same_materials(&scene->instances[i], &scene->instances[instance]); i++) {
         if (frame_first_use(scene, i)) { base += scene->instances[i].model->material_count; }
     }
     return base;
 }
 
-const uint8_t *frame_material(const tuile_t *t, uint32_t material) {
+tuile_material_t frame_material(const tuile_t *t, uint32_t material) {
     const tuile_scene_t *scene = t->scene;
     for (unsigned i = 0; i < scene->instance_count; i++) {
-        const tuile_model_t *model = scene->instances[i].model;
+        const tuile_instance_t *instance = &scene->instances[i];
         if (!frame_first_use(scene, i)) { continue; }
-        if (material < model->material_count) { return model->materials + 4 * material; }
-        material -= model->material_count;
+        if (material < instance->model->material_count) {
+            return instance->materials ? instance->materials[material] : tuile_model_material(instance->model, material);
+        }
+        material -= instance->model->material_count;
     }
-    return scene->background;
+    return (tuile_material_t){.alpha = 255, .texture = TUILE_NO_TEXTURE};
+}
+
+uint32_t frame_flat(const tuile_t *t, const record_t *record) {
+    const tuile_material_t material = frame_material(t, record->material);
+    return pixel_lit((pixel_kind_t)t->pixel_kind, material.colour, record->light);
 }
 
 TUILE_NOINLINE void frame_ramp_make(tuile_t *t, uint32_t material, uint32_t slot) {
     uint16_t *ramp = t->ramps + slot * RAMP_COLOURS;
-    const uint8_t *colour = frame_material(t, material);
+    const tuile_material_t made = frame_material(t, material);
     for (uint32_t i = 0; i < RAMP_COLOURS; i++) {
-        ramp[i] = resolve_lit(t->config.format, colour, (i * 255u + 31u) / 63u);
+        ramp[i] = (uint16_t)pixel_lit((pixel_kind_t)t->pixel_kind, made.colour, (i * 255u + 31u) / 63u);
     }
     t->ramp_tags[slot] = (int16_t)material;
 }

@@ -8,10 +8,13 @@
  */
 #include "clip.h"
 
+#define VALUES 10
+
 typedef struct clip_point {
-    int64_t x, y, w;  /* fine */
-    int32_t light;    /* Q8.16 */
-    int16_t original; /* corner's index among the cluster's vertices where its window vertex is good, else -1 */
+    int64_t x, y, w;       /* fine */
+    int32_t light;         /* Q8.16 */
+    int16_t original;      /* corner's index among the cluster's vertices where its window vertex is good, else -1 */
+    int32_t value[VALUES]; /* attributes: s, t, then light and colour as Q8.16 */
 } clip_point_t;
 
 typedef struct clip_plane {
@@ -26,6 +29,7 @@ typedef struct clip_state {
     const transform_t *transform;
     const vertex_t *vertices;
     vertex_t *out;
+    clip_attributes_t *attributes;
     unsigned capacity, count, planes;
     bool overflow;
     clip_plane_t plane[CLIP_PLANES];
@@ -56,27 +60,61 @@ static bool is_inside(const transform_t *transform, const clip_point_t *p, unsig
 
 static int64_t middle(int64_t a, int64_t b) { return (a + b) >> 1; }
 
-static clip_point_t crossing(const transform_t *transform, clip_point_t inner, clip_point_t outer, unsigned kind) {
+/* The part of the way, as Q30, that the search below has found. */
+typedef struct clip_way {
+    int64_t low, high;
+} clip_way_t;
+
+static void crossing_values(clip_point_t *inner, const clip_point_t *from, const clip_point_t *to, int64_t way) {
+    for (unsigned i = 0; i < VALUES; i++) {
+        inner->value[i] = from->value[i] + (int32_t)(((int64_t)to->value[i] - from->value[i]) * way >> 30);
+    }
+}
+
+static clip_point_t crossing(const clip_state_t *state, const clip_point_t *from, const clip_point_t *to, unsigned kind) {
+    typedef struct place {
+        int64_t x, y, w;
+        int32_t light;
+    } place_t;
+    const transform_t *transform = state->transform;
+    place_t inner = {from->x, from->y, from->w, from->light}, outer = {to->x, to->y, to->w, to->light};
+    clip_way_t way = {0, (int64_t)1 << 60};
     for (int step = 0; step < 52; step++) {
-        clip_point_t mid = {middle(inner.x, outer.x), middle(inner.y, outer.y), middle(inner.w, outer.w),
-                            (int32_t)middle(inner.light, outer.light), -1};
+        const place_t half = {middle(inner.x, outer.x), middle(inner.y, outer.y), middle(inner.w, outer.w),
+                              (int32_t)middle(inner.light, outer.light)};
+        const clip_point_t mid = {.x = half.x, .y = half.y, .w = half.w, .original = -1};
         const bool done = (mid.x == inner.x || mid.x == outer.x) && (mid.y == inner.y || mid.y == outer.y) &&
                           (mid.w == inner.w || mid.w == outer.w);
+        const int64_t halfway = middle(way.low, way.high);
         if (is_inside(transform, &mid, kind)) {
-            inner = mid;
+            inner = half;
+            way.low = halfway;
         } else {
-            outer = mid;
+            outer = half;
+            way.high = halfway;
         }
         if (done) { break; }
     }
-    inner.original = -1;
-    return inner;
+    clip_point_t found = {.x = inner.x, .y = inner.y, .w = inner.w, .light = inner.light, .original = -1};
+    if (state->attributes) { crossing_values(&found, from, to, way.low >> 30); }
+    return found;
 }
 
 static void output(clip_state_t *state, const clip_point_t *p) {
     if (state->count == state->capacity) {
         state->overflow = true;
-    } else if (p->original >= 0) {
+        return;
+    }
+    if (state->attributes) {
+        clip_attributes_t *to = &state->attributes[state->count];
+        to->s = p->value[0];
+        to->t = p->value[1];
+        for (unsigned i = 0; i < 4; i++) {
+            to->light[i] = (uint8_t)(p->value[2 + i] >> 16);
+            to->colour[i] = (uint8_t)(p->value[6 + i] >> 16);
+        }
+    }
+    if (p->original >= 0) {
         state->out[state->count++] = state->vertices[p->original];
     } else if (vertex_project(state->transform, p->x, p->y, p->w, (uint8_t)(p->light >> 16), true, &state->out[state->count])) {
         state->count++;
@@ -109,8 +147,8 @@ static void feed(clip_state_t *state, const clip_point_t *point, unsigned at) {
             pending[count++].plane = k + 1;
         }
         if (plane->any && inside != plane->last_inside) {
-            pending[count].point = inside ? crossing(state->transform, p, plane->last, plane->kind)
-                                          : crossing(state->transform, plane->last, p, plane->kind);
+            pending[count].point =
+                inside ? crossing(state, &p, &plane->last, plane->kind) : crossing(state, &plane->last, &p, plane->kind);
             pending[count++].plane = k + 1;
         }
         if (!plane->any) {
@@ -128,8 +166,8 @@ static void close_planes(clip_state_t *state) {
     for (unsigned k = 0; k < state->planes; k++) {
         const clip_plane_t *plane = &state->plane[k];
         if (plane->any && plane->first_inside != plane->last_inside) {
-            const clip_point_t p = plane->first_inside ? crossing(state->transform, plane->first, plane->last, plane->kind)
-                                                       : crossing(state->transform, plane->last, plane->first, plane->kind);
+            const clip_point_t p = plane->first_inside ? crossing(state, &plane->first, &plane->last, plane->kind)
+                                                       : crossing(state, &plane->last, &plane->first, plane->kind);
             feed(state, &p, k + 1);
         }
     }
@@ -140,9 +178,24 @@ static clip_point_t corner_point(const transform_t *transform, const clip_face_t
     const int16_t *q = face->positions + 3 * (size_t)corner;
     const int8_t *f = face->fractions ? face->fractions + 3 * (size_t)corner : NULL;
     const vertex_t *vertex = &face->vertices[corner];
-    return (clip_point_t){transform_finer(&transform->x, q, f), transform_finer(&transform->y, q, f),
-                          transform_finer(&transform->w, q, f), (int32_t)(vertex->depth_light & 0xff) << 16,
-                          (int16_t)(vertex->x == VERTEX_OUTSIDE ? -1 : (int)corner)};
+    return (clip_point_t){.x = transform_finer(&transform->x, q, f),
+                          .y = transform_finer(&transform->y, q, f),
+                          .w = transform_finer(&transform->w, q, f),
+                          .light = (int32_t)(vertex->depth_light & 0xff) << 16,
+                          .original = (int16_t)(vertex->x == VERTEX_OUTSIDE ? -1 : (int)corner)};
+}
+
+static void corner_values(const clip_face_t *face, unsigned i, clip_point_t *p) {
+    const size_t corner = face->corners[i];
+    if (face->texcoords) {
+        const uint8_t *at = face->texcoords + 4 * corner;
+        p->value[0] = (int16_t)(at[0] | at[1] << 8) * 256;
+        p->value[1] = (int16_t)(at[2] | at[3] << 8) * 256;
+    }
+    for (unsigned k = 0; k < 4; k++) {
+        p->value[2 + k] = face->lights ? face->lights[4 * corner + k] << 16 : 0;
+        p->value[6 + k] = (face->colours ? face->colours[4 * corner + k] : 255) << 16;
+    }
 }
 
 int clip_polygon(const transform_t *transform, const clip_face_t *face, vertex_t *out, unsigned capacity) {
@@ -156,6 +209,7 @@ int clip_polygon(const transform_t *transform, const clip_face_t *face, vertex_t
     state.count = 0;
     state.planes = 0;
     state.overflow = false;
+    state.attributes = face->attributes;
     for (unsigned i = 0; i < face->count; i++) {
         const clip_point_t p = corner_point(transform, face, i);
         for (unsigned kind = 0; kind < CLIP_PLANES; kind++) {
@@ -170,7 +224,8 @@ int clip_polygon(const transform_t *transform, const clip_face_t *face, vertex_t
         }
     }
     for (unsigned i = 0; i < face->count; i++) {
-        const clip_point_t p = corner_point(transform, face, i);
+        clip_point_t p = corner_point(transform, face, i);
+        if (face->attributes) { corner_values(face, i, &p); }
         feed(&state, &p, 0);
     }
     close_planes(&state);

@@ -134,6 +134,8 @@ int tuile_model_open(tuile_model_t *model, const void *data, size_t size_bytes) 
     m.materials = section(bytes, m.size_bytes, MODEL_AT_MATERIAL_TABLE, m.material_count, 4);
     m.source = NULL;
     if (!m.positions || !m.normals || !m.clusters || !m.faces || !m.face_normals || !m.materials) { return TUILE_ERROR_MODEL; }
+    m.texcoords = m.colours = m.textures = m.morph_positions = m.morph_normals = m.morph_face_normals = NULL;
+    m.texture_count = 0;
     if (model_u32(bytes + MODEL_AT_SOURCE) != 0) {
         m.source = section(bytes, m.size_bytes, MODEL_AT_SOURCE, m.face_count, m.flags & MODEL_FLAG_SOURCE32 ? 4 : 2);
         if (!m.source) { return TUILE_ERROR_MODEL; }
@@ -155,6 +157,17 @@ int tuile_model_open(tuile_model_t *model, const void *data, size_t size_bytes) 
     }
     memcpy(model, &m, sizeof m);
     return TUILE_OK;
+}
+
+tuile_material_t tuile_model_material(const tuile_model_t *model, uint32_t index) {
+    const uint8_t *at = model->materials + 4 * (size_t)index;
+    return (tuile_material_t){.colour = {at[0], at[1], at[2]}, .alpha = 255, .texture = TUILE_NO_TEXTURE};
+}
+
+tuile_texture_t tuile_model_texture(const tuile_model_t *model, uint32_t index) {
+    (void)model;
+    (void)index;
+    return (tuile_texture_t){.width = 1};
 }
 
 uint32_t tuile_model_source_face(const tuile_model_t *model, uint32_t face) {

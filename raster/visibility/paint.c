@@ -18,7 +18,7 @@ void paint_rectangle(tuile_t *t, uint32_t number, int32_t left, int32_t top, int
     frame_record_rows(t, frame_record(t, number), &first, &end);
     if (first >= bottom || end <= top) { return; }
     const size_t at = (size_t)(top - tile.top) * (size_t)tile.stride_px + (size_t)(left - tile.left);
-    t->tile.colour = (uint8_t *)tile.colour + at * TUILE_FORMAT_BYTES(t->config.format);
+    t->tile.colour = (uint8_t *)tile.colour + at * frame_sample_bytes(t);
     t->tile.left = left;
     t->tile.top = top;
     t->tile.right = right;
@@ -45,7 +45,7 @@ static void piece_run(tuile_t *t, const state_t *state, const record_t *face, in
     state_t local;
     memcpy(&local, state, state->head.size_bytes);
     const size_t at = (size_t)(row - tile.top) * (size_t)tile.stride_px + (size_t)(left - tile.left);
-    t->tile.colour = (uint8_t *)tile.colour + at * TUILE_FORMAT_BYTES(t->config.format);
+    t->tile.colour = (uint8_t *)tile.colour + at * frame_sample_bytes(t);
     t->tile.left = left;
     t->tile.top = row;
     t->tile.right = right;

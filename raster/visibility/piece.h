@@ -35,9 +35,9 @@ TUILE_INLINE bool duel_front(const duel_t *duel, int32_t x, int32_t y) {
     return a > b || (a == b && duel->wins_tie);
 }
 
-#define PIECE_MASK_WORDS (TUILE_WINDOW_MAX_PX / 32)
+#define PIECE_MASK_WORDS (TUILE_SAMPLES_MAX / 32)
 
-/* Bit i: pixel (from + i, y) is in the piece, as far as bounds and cuts tell; 0 <= to - from <= TUILE_WINDOW_MAX_PX. The bits from
+/* Bit i: pixel (from + i, y) is in the piece, as far as bounds and cuts tell; 0 <= to - from <= TUILE_SAMPLES_MAX. The bits from
  * to - from on are 0. */
 void piece_mask(const tuile_t *t, const record_t *record, int32_t y, int32_t from, int32_t to, uint32_t mask[PIECE_MASK_WORDS]);
 

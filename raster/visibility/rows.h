@@ -24,12 +24,6 @@ typedef union state {
     polygon_t polygon;
 } state_t;
 
-/* Colour or id. */
-static inline uint32_t face_value(const tuile_t *t, const record_t *record) {
-    if (t->span_kind == SPAN_IDS) { return frame_record_id(record); }
-    return resolve_lit(t->config.format, frame_material(t, record->material), record->light);
-}
-
 /* Pieces of faces (piece.h), for painted rows only. The states are those of the whole face. */
 bool piece_start(tuile_t *t, state_t *state, const record_t *record, uint32_t number, int32_t row);
 bool piece_fill(tuile_t *t, state_t *state, const record_t *record);
@@ -47,13 +41,13 @@ TUILE_INLINE bool face_start(tuile_t *t, state_t *state, const record_t *face, c
             triangle_paint_start(&state->triangle, v0, v1, v2, row, t->span_kind == SPAN_GOURAUD);
         }
         state->head.size_bytes = (sizeof(triangle_t) + 7u) & ~7u;
-        state->triangle.value = t->span_kind == SPAN_GOURAUD ? record->material : face_value(t, record);
+        state->triangle.value = t->span_kind == SPAN_GOURAUD ? record->material : frame_value(t, record, number);
     } else {
         const polygon_ring_t ring = frame_record_ring(t, face);
         if (!(tested ? polygon_start(&state->polygon, &ring, row) : polygon_paint_start(&state->polygon, &ring, row))) {
             return false;
         }
-        state->polygon.value = face_value(t, record);
+        state->polygon.value = frame_value(t, record, number);
         state->head.size_bytes = (uint16_t)((state->head.size_bytes + 7u) & ~7u);
     }
     state->head.record = (uint16_t)number;

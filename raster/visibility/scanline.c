@@ -128,7 +128,7 @@ static TUILE_NOINLINE int sweep_face_start(tuile_t *t, sweep_t *sweep, uint32_t 
         face_end(sweep, at);
         return FRAME_OK;
     }
-    face->value = t->span_kind == SPAN_GOURAUD && !face->polygon ? record->material : face_value(t, record);
+    face->value = t->span_kind == SPAN_GOURAUD && !face->polygon ? record->material : frame_value(t, record, number);
     face->next = *link;
     *link = at;
     return FRAME_OK;
@@ -252,7 +252,7 @@ TUILE_INLINE int line_draw(tuile_t *t, sweep_t *sweep, const line_t *line, int32
 
 TUILE_INLINE int lines_draw(tuile_t *t, sweep_t *sweep, span_kind_t kind, bool last) {
     line_t line = {t->tile_memory, t->tile.colour, t->tile.left, t->tile.right};
-    const size_t width = (size_t)t->tile.stride_px, stride = width * TUILE_FORMAT_BYTES(t->config.format);
+    const size_t width = (size_t)t->tile.stride_px, stride = width * frame_sample_bytes(t);
     for (int32_t row = t->tile.top; row < t->tile.bottom; row++, line.colour += stride) {
         if (buckets(t)[row - t->tile.top] == RECORD_NONE && sweep->faces == 0) { continue; }
         frame_fill_words(line.depth, 0, sizeof(uint16_t) * width);

@@ -59,9 +59,9 @@ static int cluster_find(tuile_t *t, walk_t *walk, uint32_t k, frame_cluster_t *c
         return FRAME_OK;
     }
     const uint32_t mark = t->vertex_count;
-    if (mark >= CLUSTER_CULLED) { return FRAME_FULL; }
+    if (mark + SOURCE_SLOTS >= CLUSTER_CULLED) { return FRAME_FULL; }
     const int result = bin_cluster_open(t, bytes, cluster);
-    if (result == FRAME_OK) { *slot = (uint16_t)mark; }
+    if (result == FRAME_OK) { *slot = (uint16_t)(cluster->vertices - t->vertices); }
     if (result == BIN_CULLED) { *slot = CLUSTER_CULLED; }
     return result;
 }

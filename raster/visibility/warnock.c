@@ -14,10 +14,10 @@
  * Windows that wait lie on a stack, each with the two numbers of the window that it is a part of. Of the parts the smallest is
  * looked at first and the largest last. Then with w windows waiting below one of area A,  w + 1.5 log2 A  never grows: of four
  * parts the smallest has an area of at most A / 4 and three wait below it (3 = 1.5 log2 4), the next A / 3 and two (2 < 1.5 log2
- * 3), then A / 2 and one, then none; of two parts A / 2 and one. Hence at most 1.5 log2 2^20 + 1 = 31 windows, wherever they are
+ * 3), then A / 2 and one, then none; of two parts A / 2 and one. Hence at most 1.5 log2 (1920 * 1920) + 1 = 33 windows, wherever they are
  * cut.
  *
- * Memory: the free room holds sizeof(warnock_face_t) + 2 = 90 bytes for each face whose box meets the tile; the stack is 31 * 14
+ * Memory: the free room holds sizeof(warnock_face_t) + 2 = 90 bytes for each face whose box meets the tile; the stack is 34 * 14
  * bytes of the processor's. Nothing else, whatever the size of a tile.
  */
 #include "../tune.h"
@@ -25,9 +25,9 @@
 #include "rows.h"
 #include "warnock_face.h"
 
-#define STACK_WINDOWS 31
+#define STACK_WINDOWS 34
 
-_Static_assert(TUILE_WINDOW_MAX_PX <= 1024, "STACK_WINDOWS");
+_Static_assert(TUILE_SAMPLES_MAX <= 1920, "STACK_WINDOWS");
 
 typedef struct waiting {
     window_t window;

@@ -14,11 +14,6 @@ static void triangle_range(warnock_face_t *face, const vertex_t *v0, const verte
     face->high = ((z0 > high ? z0 : high) << 8) + 0x8000u + PLANE_ERROR;
 }
 
-static uint32_t face_colour(const tuile_t *t, const record_t *record) {
-    if (t->span_kind == SPAN_IDS) { return frame_record_id(record); }
-    return resolve_lit(t->config.format, frame_material(t, record->material), record->light);
-}
-
 bool warnock_face_start(tuile_t *t, warnock_face_t *face, uint32_t number, const window_t *box) {
     const record_t *record = frame_record(t, number);
     depth_plane_t plane;
@@ -34,13 +29,13 @@ bool warnock_face_start(tuile_t *t, warnock_face_t *face, uint32_t number, const
         face->sides[0] = window_side(v0->x, v0->y, v1->x, v1->y);
         face->sides[1] = window_side(v1->x, v1->y, v2->x, v2->y);
         face->sides[2] = window_side(v2->x, v2->y, v0->x, v0->y);
-        face->value = gouraud ? record->material : face_colour(t, record);
+        face->value = gouraud ? record->material : frame_value(t, record, number);
     } else {
         const polygon_ring_t ring = frame_record_ring(t, record);
         if (!polygon_plane(&ring, &plane)) { return false; }
         face->low = plane.low;
         face->high = plane.high;
-        face->value = face_colour(t, record);
+        face->value = frame_value(t, record, number);
     }
     face->z = plane.z;
     face->dx = (int32_t)(uint32_t)plane.dx;

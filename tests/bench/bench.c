@@ -189,7 +189,7 @@ static int run(bench_t *b) {
                  passes, peak);
     peak = peak > least ? peak : least;
     const size_t colours = (size_t)(config->buffers ? config->buffers : 2) *
-                           TUILE_ALIGN64((size_t)TUILE_FORMAT_BYTES(config->format) * config->tile_width * config->tile_height);
+                           TUILE_ALIGN64(TUILE_WIRE_BYTES(config->format, config->tile_width, config->tile_height));
     (void)printf("beside %zu\n", peak - colours); /* the buffers of colours */
     turn(b, 0);
     result = print_cover(config, &b->view.scene, b->block, b->memory);

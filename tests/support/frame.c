@@ -23,7 +23,7 @@ void block_close(block_t *block) {
 }
 
 void frame_paste(uint8_t *picture, const tuile_config_t *config, const tuile_tile_t *tile) {
-    const size_t pixel = TUILE_FORMAT_BYTES(config->format);
+    const size_t pixel = TUILE_WIRE_BYTES(config->format, 1u, 1u);
     assert_int_equal(tile->size_bytes, pixel * tile->width * tile->height);
     assert_in_range(tile->x + tile->width, 1, config->width);
     assert_in_range(tile->y + tile->height, 1, config->height);
@@ -34,7 +34,7 @@ void frame_paste(uint8_t *picture, const tuile_config_t *config, const tuile_til
 }
 
 size_t frame_bytes(const tuile_config_t *config) {
-    return (size_t)TUILE_FORMAT_BYTES(config->format) * config->width * config->height;
+    return (size_t)TUILE_WIRE_BYTES(config->format, 1u, 1u) * config->width * config->height;
 }
 
 uint8_t *frame_blank(const tuile_config_t *config) {

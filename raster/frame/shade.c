@@ -1,0 +1,176 @@
+/* Deferred shading. A method draws the numbers of faces in the place of colours; here the faces that are seen get their colours,
+ * each once a tile: the first sample of a face that is met leads to all others, which lie within its bounding box, and takes them
+ * out. So a face is set up if it is seen, no list of faces is needed, and nothing is kept from one tile to the next.
+ *
+ * Where faces are drawn as they come (an immediate pass) there is never more than one number in the tile.
+ */
+#include "../tune.h"
+
+#include "frame.h"
+
+#include "../surface/surface.h"
+
+void shade_clear(tuile_t *t) {
+    const size_t samples = (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top);
+    uint8_t *to = t->working ? t->working : t->colours[t->next_buffer];
+    const bool wide = pixel_bytes((pixel_kind_t)t->pixel_kind) == 4;
+    frame_fill_words(t->numbers, 0, samples * sizeof(uint16_t));
+    frame_fill_words(to, wide ? t->background : t->background * 0x10001u, samples * (wide ? 4 : 2));
+}
+
+/* ---- a record as a face to be shaded ---- */
+
+static void corner_open(const tuile_t *t, const source_slot_t *source, uint32_t first, const vertex_t *vertex, surface_corner_t *corner) {
+    const uint32_t k = (uint32_t)(vertex - t->vertices) - first;
+    const tuile_model_t *model = t->scene->instances[source->instance].model;
+    clip_attributes_t *to = &corner->attributes;
+    corner->at = *vertex;
+    if (source->attributes) {
+        *to = ((const clip_attributes_t *)(const void *)&t->vertices[source->attributes])[k];
+        return;
+    }
+    const size_t number = source->first_vertex + k;
+    if (model->texcoords) {
+        to->s = model_i16(model->texcoords + 4 * number) * 256;
+        to->t = model_i16(model->texcoords + 4 * number + 2) * 256;
+    }
+    const uint8_t *light = source->colours ? (const uint8_t *)(t->vertices + source->colours) + 4 * (size_t)k : NULL;
+    const uint8_t *colour = model->colours ? model->colours + 4 * number : NULL;
+    for (unsigned i = 0; i < 4; i++) {
+        to->light[i] = light ? light[i] : 0;
+        to->colour[i] = colour ? colour[i] : 255;
+    }
+}
+
+/* Of a polygon's fan the largest triangle, which snapping disturbs least. */
+static void largest_triangle(const polygon_ring_t *ring, const vertex_t *corners[3]) {
+    int64_t most = -1;
+    const vertex_t *v0 = polygon_ring_vertex(ring, 0);
+    for (uint32_t i = 1; i + 1 < ring->count; i++) {
+        const vertex_t *v1 = polygon_ring_vertex(ring, i), *v2 = polygon_ring_vertex(ring, i + 1);
+        int64_t area = (int64_t)(v2->x - v0->x) * (v1->y - v0->y) - (int64_t)(v1->x - v0->x) * (v2->y - v0->y);
+        area = area < 0 ? -area : area;
+        if (area > most) {
+            most = area;
+            corners[0] = v0;
+            corners[1] = v1;
+            corners[2] = v2;
+        }
+    }
+}
+
+static void face_open(const tuile_t *t, const record_t *record, surface_face_t *face) {
+    const record_t whole = frame_record_face(t, record);
+    const record_surface_t *extra = (const record_surface_t *)(const void *)record;
+    const source_slot_t *source = (const source_slot_t *)(const void *)&t->vertices[extra->source];
+    const tuile_instance_t *instance = &t->scene->instances[source->instance];
+    const vertex_t *corners[3];
+    const bool triangle = frame_record_is_triangle(&whole);
+    if (TUILE_LIKELY(triangle)) {
+        corners[0] = &t->vertices[whole.v0];
+        corners[1] = corners[0] + whole.d1;
+        corners[2] = corners[0] + whole.d2;
+    } else {
+        const polygon_ring_t ring = frame_record_ring(t, &whole);
+        largest_triangle(&ring, corners);
+    }
+    for (unsigned i = 0; i < 3; i++) {
+        corner_open(t, source, extra->source + SOURCE_SLOTS, corners[i], &face->corner[i]);
+    }
+    face->material = frame_material(t, record->material);
+    if (face->material.texture < instance->model->texture_count) {
+        face->texture = tuile_model_texture(instance->model, face->material.texture);
+    } else {
+        face->material.texture = TUILE_NO_TEXTURE;
+    }
+    face->coloured = source->colours != 0 || source->is_coloured;
+    /* A polygon that is in one light all over, or that is not convex. */
+    face->flat = t->config.shade == TUILE_FLAT || (!triangle && !face->coloured);
+    face->flat_light[0] = record->light;
+    face->flat_light[1] = extra->green;
+    face->flat_light[2] = extra->blue;
+    face->tinted = instance->model->colours != NULL;
+    face->perspective = t->camera.projection == TUILE_PERSPECTIVE;
+    face->texturing = t->config.texturing;
+}
+
+/* ---- numbers to samples ---- */
+
+/* All samples of the face with this number from row `top` of the window on, in columns left ... right - 1. */
+static void shade_box(tuile_t *t, const surface_t *surface, uint16_t value, int32_t left, int32_t top, int32_t right, int32_t bottom) {
+    const int32_t stride = t->tile.stride_px;
+    const size_t bytes = pixel_bytes((pixel_kind_t)t->pixel_kind);
+    uint8_t *tile = t->working ? t->working : t->colours[t->next_buffer];
+    uint16_t *row = t->numbers + (size_t)(top - t->tile.top) * (size_t)stride;
+    for (int32_t y = top; y < bottom; y++, row += stride) {
+        uint16_t *at = row + (left - t->tile.left), *end = row + (right - t->tile.left);
+        while (at < end) {
+            if (*at != value) {
+                at++;
+                continue;
+            }
+            const uint16_t *first = at;
+            while (at < end && *at == value) {
+                *at++ = 0;
+            }
+            const int32_t x = t->tile.left + (int32_t)(first - row);
+            surface->fill(surface, x, y, (int32_t)(at - first), tile + (size_t)(first - t->numbers) * bytes);
+        }
+    }
+}
+
+/* The bounding box of a record's face, within the tile. */
+static void record_box(const tuile_t *t, const record_t *record, int32_t *left, int32_t *top, int32_t *right, int32_t *bottom) {
+    frame_record_rows(t, record, top, bottom);
+    if (frame_record_is_piece(record)) {
+        const face_bounds_t *bounds = &frame_record_piece(t, record)->bounds;
+        *left = bounds->left;
+        *right = bounds->right;
+    } else if (frame_record_is_triangle(record)) {
+        const vertex_t *v0 = &t->vertices[record->v0];
+        const int32_t x0 = v0->x, x1 = v0[record->d1].x, x2 = v0[record->d2].x;
+        *left = edge_row(x0 < x1 ? (x0 < x2 ? x0 : x2) : (x1 < x2 ? x1 : x2));
+        *right = edge_row(x0 > x1 ? (x0 > x2 ? x0 : x2) : (x1 > x2 ? x1 : x2));
+    } else {
+        const polygon_ring_t ring = frame_record_ring(t, record);
+        int32_t least = INT32_MAX, most = INT32_MIN;
+        for (uint32_t i = 0; i < ring.count; i++) {
+            const int32_t x = polygon_ring_vertex(&ring, i)->x;
+            least = x < least ? x : least;
+            most = x > most ? x : most;
+        }
+        *left = edge_row(least);
+        *right = edge_row(most);
+    }
+    *left = *left < t->tile.left ? t->tile.left : *left;
+    *right = *right > t->tile.right ? t->tile.right : *right;
+    *top = *top < t->tile.top ? t->tile.top : *top;
+    *bottom = *bottom > t->tile.bottom ? t->tile.bottom : *bottom;
+}
+
+/* The face of a record from row `from` on. */
+static TUILE_NOINLINE void shade_record(tuile_t *t, uint32_t number, int32_t from) {
+    const record_t *record = frame_record(t, number);
+    int32_t left, top, right, bottom;
+    surface_face_t face;
+    surface_t surface;
+    record_box(t, record, &left, &top, &right, &bottom);
+    face_open(t, record, &face);
+    surface_make(&surface, &face, (pixel_kind_t)t->pixel_kind);
+    shade_box(t, &surface, (uint16_t)(number + 1), left, top > from ? top : from, right, bottom);
+}
+
+void shade_tile(tuile_t *t) {
+    const int32_t stride = t->tile.stride_px;
+    for (int32_t y = t->tile.top; y < t->tile.bottom; y++) {
+        const uint16_t *row = t->numbers + (size_t)(y - t->tile.top) * (size_t)stride;
+        for (int32_t i = 0; i < stride; i++) {
+            if (row[i] != 0) { shade_record(t, row[i] - 1u, y); }
+        }
+    }
+}
+
+void shade_now(tuile_t *t, uint32_t number) {
+    t->method->draw_now(t, number);
+    shade_record(t, number, t->tile.top);
+}

@@ -1,0 +1,115 @@
+/* Deferred shading: the picture of a scene that wants no effects is the one that is drawn without them, by all methods, in any memory,
+ * through any tiles. */
+#include "support/check.h"
+#include "support/frame.h"
+#include "support/models.h"
+#include "support/stage.h"
+
+typedef struct inside {
+    model_compiled_t model;
+    view_t view;
+} inside_t;
+
+/* A room from within: polygons that are not convex, faces that reach behind the eye and far out of the window. */
+static void inside_open(inside_t *in, uint16_t width, uint16_t height) {
+    mesh_t mesh;
+    sim_error_t error = {""};
+    view_options_t options = VIEW_OPTIONS_DEFAULT;
+    const mesh_options_t with = {.tree = true};
+    model_room(&mesh);
+    model_compile_with(&in->model, &mesh, &with);
+    mesh_free(&mesh);
+    options.has_eye = options.has_at = options.has_near = true;
+    options.eye[0] = 0.3, options.eye[1] = 0.4, options.eye[2] = 3.5;
+    options.at[0] = -1, options.at[1] = 0, options.at[2] = 0;
+    options.fov = 100;
+    options.near = 0.5;
+    assert_int_equal(view_make(&in->view, &options, &in->model.model, width, height, 1, &error), 0);
+    view_frame(&in->view, 0);
+}
+
+/* The tree decides ties otherwise than depth does, so it is compared with itself. */
+static void compare(const tuile_scene_t *scene, tuile_config_t config, const char *name) {
+    static const uint16_t tiles[][2] = {{0, 0}, {32, 32}, {40, 7}};
+    for (unsigned shade = 0; shade < 2; shade++) {
+        uint8_t *expected[2];
+        config.shade = (uint8_t)shade;
+        config.effects = shade == 0 ? 0 : TUILE_SURFACES;
+        for (unsigned i = 0; i < 2; i++) {
+            config.method = i == 0 ? TUILE_ZBUFFER : TUILE_TREE;
+            expected[i] = frame_draw(scene, &config, (size_t)4 << 20, NULL);
+        }
+        config.effects = TUILE_SURFACES;
+        for (unsigned k = 0; k < CHECK_COUNT(tiles) * (TUILE_TREE + 1); k++) {
+            tuile_config_t c = config;
+            c.method = (uint8_t)(k % (TUILE_TREE + 1));
+            c.tile_width = tiles[k / (TUILE_TREE + 1)][0];
+            c.tile_height = tiles[k / (TUILE_TREE + 1)][1];
+            uint8_t *picture = frame_draw(scene, &c, (size_t)4 << 20, NULL);
+            if (memcmp(picture, expected[c.method == TUILE_TREE], frame_bytes(&c)) != 0) {
+                fail_msg("%s: shade %u, method %u, tiles %u: another picture", name, shade, c.method, k / (TUILE_TREE + 1));
+            }
+            free(picture);
+        }
+        for (unsigned k = 0; k < 24; k++) {
+            tuile_config_t c = config;
+            c.method = k % 2 ? TUILE_TREE : TUILE_ZBUFFER;
+            const size_t size = frame_least_bytes(&c) + (k / 2) * (k / 2) * 128;
+            uint8_t *picture = frame_draw(scene, &c, size, NULL);
+            if (memcmp(picture, expected[k % 2], frame_bytes(&c)) != 0) {
+                fail_msg("%s: shade %u, method %u, %zu bytes: another picture", name, shade, c.method, size);
+            }
+            free(picture);
+        }
+        free(expected[0]);
+        free(expected[1]);
+    }
+}
+
+static void deferred_torus(void **state) {
+    stage_t stage;
+    (void)state;
+    stage_open_torus(&stage, 120, 160);
+    tuile_config_t config = stage_panel_config(&stage);
+    config.tree_depth = 1000;
+    tuile_config_t without = config;
+    without.tile_height = 8;
+    for (unsigned shade = 0; shade < 2; shade++) {
+        uint8_t *expected = NULL;
+        for (unsigned m = 0; m < TUILE_TREE; m++) {
+            tuile_config_t c = without;
+            c.shade = (uint8_t)shade;
+            c.method = (uint8_t)m;
+            c.effects = shade == 0 && m == 0 ? 0 : TUILE_SURFACES;
+            uint8_t *picture = frame_draw(&stage.view.scene, &c, (size_t)4 << 20, NULL);
+            if (expected == NULL) {
+                expected = picture;
+                continue;
+            }
+            assert_memory_equal(picture, expected, frame_bytes(&c));
+            free(picture);
+        }
+        free(expected);
+    }
+    stage_close(&stage);
+}
+
+static void deferred_room(void **state) {
+    inside_t in;
+    (void)state;
+    inside_open(&in, 120, 90);
+    tuile_config_t config = {.width = 120, .height = 90, .tile_height = 6};
+    config.cluster_vertices = in.model.model.cluster_vertices_max;
+    config.corners = in.model.model.corners_max;
+    config.tree_depth = in.model.model.tree_depth;
+    compare(&in.view.scene, config, "room");
+    model_free(&in.model);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(deferred_torus),
+        cmocka_unit_test(deferred_room),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
