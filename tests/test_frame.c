@@ -356,7 +356,7 @@ static void a_scene_without_instances_is_background(void **state) {
     const tuile_scene_t scene = {.background = {0x18, 0x20, 0x30}};
     tuile_stats_t stats;
     (void)state;
-    uint8_t *picture = frame_draw(&scene, &config, 4096, &stats);
+    uint8_t *picture = frame_draw(&scene, &config, 4608, &stats);
     for (size_t i = 0; i < frame_bytes(&config); i += 2) { /* 24 -> 3 of 31, 32 -> 8 of 63, 48 -> 6 of 31 */
         assert_int_equal(picture[i] << 8 | picture[i + 1], 3 << 11 | 8 << 5 | 6);
     }
