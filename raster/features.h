@@ -1,0 +1,19 @@
+/* What a build has of the effects: boards that do not want all leave out their code with -DTUILE_FEATURES=BITS. */
+#ifndef TUILE_FEATURES_H
+#define TUILE_FEATURES_H
+
+#ifndef TUILE_FEATURES
+#define TUILE_FEATURES 0xff
+#endif
+
+#define FEATURE_SURFACES 1 /* deferred shading, which the next four build on */
+#define FEATURE_TEXTURES 2
+#define FEATURE_LIGHTS 4 /* coloured and point lights, highlights, vertex colours */
+#define FEATURE_FOG 8
+#define FEATURE_LAYERS 16  /* translucent faces, sprites */
+#define FEATURE_LINES 32   /* lines, edges of faces */
+#define FEATURE_RESOLVE 64 /* formats that are not drawn in wire bytes, dithering, anti-aliasing */
+
+#define TUILE_HAS(feature) (((TUILE_FEATURES) & (FEATURE_##feature)) != 0)
+
+#endif
