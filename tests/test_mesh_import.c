@@ -28,9 +28,11 @@ static void test_two_materials(void **state) {
                                                                    "usemtl red\nf 1 4 3 2\nf 5 6 7 8\n"
                                                                    "usemtl blue\nf 1 2 6 5\nf 3 4 8 7\nf 1 5 8 4\nf 2 3 7 6\n"),
                                         NULL);
-    const uint8_t colours[8] = {255, 51, 0, 0, 0, 102, 204, 0};
+    const uint8_t materials[2][16] = {/* opaque; no emission, highlight, texture */
+                                      {255, 51, 0, 255, 0, 0, 0, 0, 0, 255},
+                                      {0, 102, 204, 255, 0, 0, 0, 0, 0, 255}};
     assert_int_equal(c.model.material_count, 2);
-    assert_memory_equal(c.model.materials, colours, 8);
+    assert_memory_equal(c.model.materials, materials, sizeof materials);
     assert_int_equal(c.mesh.position_count, 8); /* joined across the two */
     decoder_check_faces(&c.model, &c.mesh);
     assert_int_equal(decoder_face_of_source(&c.model, 1)->material, 0);
@@ -48,8 +50,8 @@ static void test_vertex_colours(void **state) {
                                        "3 0 1 2\n3 1 3 2\n"),
         NULL);
     const uint8_t first[3] = {255, 10, 0}, second[3] = {170, 10, 30};
-    assert_memory_equal(c.model.materials + 4 * (size_t)decoder_face_of_source(&c.model, 0)->material, first, 3);
-    assert_memory_equal(c.model.materials + 4 * (size_t)decoder_face_of_source(&c.model, 1)->material, second, 3);
+    assert_memory_equal(c.model.materials + 16 * (size_t)decoder_face_of_source(&c.model, 0)->material, first, 3);
+    assert_memory_equal(c.model.materials + 16 * (size_t)decoder_face_of_source(&c.model, 1)->material, second, 3);
     decoder_drop(&c);
 }
 

@@ -20,12 +20,11 @@ uint32_t model_crc32(uint32_t crc, const uint8_t *bytes, size_t size_bytes) {
     return ~crc;
 }
 
-/* The section of count * item_bytes bytes whose offset stands at `at` in the header, or NULL. */
-static const uint8_t *section(const uint8_t *bytes, uint32_t size_bytes, unsigned at, uint32_t count, uint32_t item_bytes) {
-    const uint32_t offset = model_u32(bytes + at);
+const uint8_t *model_section(const tuile_model_t *model, unsigned at, uint32_t count, uint32_t item_bytes) {
+    const uint32_t offset = model_u32(model->bytes + at), size_bytes = model->size_bytes;
     const uint64_t length = (uint64_t)count * item_bytes;
     if (offset % 4 != 0 || offset < MODEL_HEADER_BYTES || offset > size_bytes || length > size_bytes - offset) { return NULL; }
-    return bytes + offset;
+    return model->bytes + offset;
 }
 
 /* Bytes of the faces of one cluster, 0 when any of them is wrong. */
@@ -81,12 +80,10 @@ static bool check_clusters(const tuile_model_t *model, uint32_t face_bytes_size)
     return vertex == model->vertex_count && face == model->face_count;
 }
 
-/* The box is believed by those who order instances: no position may lie outside. */
-static bool check_box(const tuile_model_t *model) {
-    const uint8_t *p = model->positions;
+bool model_in_box(const tuile_model_t *model, const uint8_t *positions) {
     for (uint32_t v = 0; v < model->vertex_count; v++) {
-        for (unsigned i = 0; i < 3; i++, p += 2) {
-            if (model_i16(p) < model->low[i] || model_i16(p) > model->high[i]) { return false; }
+        for (unsigned i = 0; i < 3; i++, positions += 2) {
+            if (model_i16(positions) < model->low[i] || model_i16(positions) > model->high[i]) { return false; }
         }
     }
     return true;
@@ -126,48 +123,37 @@ int tuile_model_open(tuile_model_t *model, const void *data, size_t size_bytes) 
         return TUILE_ERROR_MODEL;
     }
     const uint32_t face_bytes_size = model_u32(bytes + MODEL_AT_FACE_BYTES_SIZE);
-    m.positions = section(bytes, m.size_bytes, MODEL_AT_POSITIONS, m.vertex_count, 6);
-    m.normals = section(bytes, m.size_bytes, MODEL_AT_NORMALS, m.vertex_count, 3);
-    m.clusters = section(bytes, m.size_bytes, MODEL_AT_CLUSTER_TABLE, m.cluster_count, MODEL_CLUSTER_BYTES);
-    m.faces = section(bytes, m.size_bytes, MODEL_AT_FACE_BYTES, face_bytes_size, 1);
-    m.face_normals = section(bytes, m.size_bytes, MODEL_AT_FACE_NORMALS, m.face_count, 3);
-    m.materials = section(bytes, m.size_bytes, MODEL_AT_MATERIAL_TABLE, m.material_count, 4);
+    m.positions = model_section(&m, MODEL_AT_POSITIONS, m.vertex_count, 6);
+    m.normals = model_section(&m, MODEL_AT_NORMALS, m.vertex_count, 3);
+    m.clusters = model_section(&m, MODEL_AT_CLUSTER_TABLE, m.cluster_count, MODEL_CLUSTER_BYTES);
+    m.faces = model_section(&m, MODEL_AT_FACE_BYTES, face_bytes_size, 1);
+    m.face_normals = model_section(&m, MODEL_AT_FACE_NORMALS, m.face_count, 3);
     m.source = NULL;
-    if (!m.positions || !m.normals || !m.clusters || !m.faces || !m.face_normals || !m.materials) { return TUILE_ERROR_MODEL; }
-    m.texcoords = m.colours = m.textures = m.morph_positions = m.morph_normals = m.morph_face_normals = NULL;
-    m.texture_count = 0;
+    if (!m.positions || !m.normals || !m.clusters || !m.faces || !m.face_normals || !model_open_surface(&m)) {
+        return TUILE_ERROR_MODEL;
+    }
     if (model_u32(bytes + MODEL_AT_SOURCE) != 0) {
-        m.source = section(bytes, m.size_bytes, MODEL_AT_SOURCE, m.face_count, m.flags & MODEL_FLAG_SOURCE32 ? 4 : 2);
+        m.source = model_section(&m, MODEL_AT_SOURCE, m.face_count, m.flags & MODEL_FLAG_SOURCE32 ? 4 : 2);
         if (!m.source) { return TUILE_ERROR_MODEL; }
     }
-    if (!check_clusters(&m, face_bytes_size) || !check_box(&m)) { return TUILE_ERROR_MODEL; }
+    if (!check_clusters(&m, face_bytes_size) || !model_in_box(&m, m.positions)) { return TUILE_ERROR_MODEL; }
     m.fractions = NULL;
     if (model_u32(bytes + MODEL_AT_FRACTIONS) != 0) {
-        m.fractions = section(bytes, m.size_bytes, MODEL_AT_FRACTIONS, m.vertex_count, 3);
+        m.fractions = model_section(&m, MODEL_AT_FRACTIONS, m.vertex_count, 3);
         if (!m.fractions) { return TUILE_ERROR_MODEL; }
     }
     m.tree = NULL;
     m.tree_words = model_u32(bytes + MODEL_AT_TREE_WORDS);
     m.tree_depth = model_u16(bytes + MODEL_AT_TREE_DEPTH);
     if (model_u32(bytes + MODEL_AT_TREE) != 0) {
-        m.tree = section(bytes, m.size_bytes, MODEL_AT_TREE, m.tree_words, 4);
+        m.tree = model_section(&m, MODEL_AT_TREE, m.tree_words, 4);
         if (!m.tree || !tree_check(&m)) { return TUILE_ERROR_MODEL; }
     } else if (m.tree_words != 0 || m.tree_depth != 0) {
         return TUILE_ERROR_MODEL;
     }
+    if (!model_open_morph(&m)) { return TUILE_ERROR_MODEL; }
     memcpy(model, &m, sizeof m);
     return TUILE_OK;
-}
-
-tuile_material_t tuile_model_material(const tuile_model_t *model, uint32_t index) {
-    const uint8_t *at = model->materials + 4 * (size_t)index;
-    return (tuile_material_t){.colour = {at[0], at[1], at[2]}, .alpha = 255, .texture = TUILE_NO_TEXTURE};
-}
-
-tuile_texture_t tuile_model_texture(const tuile_model_t *model, uint32_t index) {
-    (void)model;
-    (void)index;
-    return (tuile_texture_t){.width = 1};
 }
 
 uint32_t tuile_model_source_face(const tuile_model_t *model, uint32_t face) {

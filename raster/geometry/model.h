@@ -13,8 +13,8 @@
 #include "../tuile.h"
 
 #define MODEL_MAGIC 0x4c495554u /* "TUIL" */
-#define MODEL_VERSION 2u
-#define MODEL_HEADER_BYTES 124u
+#define MODEL_VERSION 3u
+#define MODEL_HEADER_BYTES 152u
 
 /* Byte offsets in the header. */
 enum {
@@ -42,14 +42,22 @@ enum {
     MODEL_AT_FACE_BYTES_SIZE = 80, /* u32, size of that section */
     MODEL_AT_FACE_NORMALS = 84,
     MODEL_AT_MATERIAL_TABLE = 88,
-    MODEL_AT_SOURCE = 92,      /* 0 when there is no source map */
-    MODEL_AT_TREE = 96,        /* 0 when there is no display tree */
-    MODEL_AT_TREE_WORDS = 100, /* u32, size of that section in 32-bit words */
-    MODEL_AT_TREE_DEPTH = 104, /* u16, nodes on the longest path; 0 without a tree */
-    MODEL_AT_ZERO = 106,       /* u16, 0 */
-    MODEL_AT_LOW = 108,        /* 3 x i16, least of all positions */
-    MODEL_AT_HIGH = 114,       /* 3 x i16, greatest */
-    MODEL_AT_FRACTIONS = 120,  /* 0 when all positions are whole steps */
+    MODEL_AT_SOURCE = 92,           /* 0 when there is no source map */
+    MODEL_AT_TREE = 96,             /* 0 when there is no display tree */
+    MODEL_AT_TREE_WORDS = 100,      /* u32, size of that section in 32-bit words */
+    MODEL_AT_TREE_DEPTH = 104,      /* u16, nodes on the longest path; 0 without a tree */
+    MODEL_AT_ZERO = 106,            /* u16, 0 */
+    MODEL_AT_LOW = 108,             /* 3 x i16, least of all positions */
+    MODEL_AT_HIGH = 114,            /* 3 x i16, greatest */
+    MODEL_AT_FRACTIONS = 120,       /* 0 when all positions are whole steps */
+    MODEL_AT_TEXCOORDS = 124,       /* 0 when no material has a texture */
+    MODEL_AT_COLOURS = 128,         /* 0 when there are no vertex colours */
+    MODEL_AT_TEXTURES = 132,        /* the texture table; 0 when there are no textures */
+    MODEL_AT_TEXTURE_COUNT = 136,   /* u16, 0 ... 255 */
+    MODEL_AT_ZERO2 = 138,           /* u16, 0 */
+    MODEL_AT_MORPH_POSITIONS = 140, /* the second key frame: all three of these, or 0. Not with a display tree */
+    MODEL_AT_MORPH_NORMALS = 144,
+    MODEL_AT_MORPH_FACE_NORMALS = 148,
 };
 
 enum {
@@ -60,9 +68,12 @@ enum {
  * fractions    vertices x 3 x i8, to be added to the position, in 1/256 step: vertices that the display tree made by cutting
  * normals      vertices x 3 x i8, 127 = 1.0, outward
  * face normals faces x 3 x i8, of the plane, outward
- * materials    materials x {u8 red, green, blue, 0}
- * source       faces x u16 or u32: the importer's number of each face, 0-based; several may share one (a split polygon)
- * face bytes   per cluster, at its face_bytes offset:
+ * materials    materials x 16 bytes, as below
+ * texcoords    vertices x 2 x i16: s, t in texels of level 0 of the texture of the vertex's material, times 2^uv_bits of that
+ * material. Vertices of materials without one: 0 colours      vertices x 4 x u8: red, green, blue, alpha textures     textures x 20
+ * bytes, as below; texels and palettes lie anywhere behind the header, 4-byte aligned morph ...    positions, normals and face
+ * normals of the second key frame, in the same steps; positions within low ... high source       faces x u16 or u32: the importer's
+ * number of each face, 0-based; several may share one (a split polygon) face bytes   per cluster, at its face_bytes offset:
  *              MODEL_CLUSTER_TRIANGLES: per face u8 a, b, c, material, 4-byte aligned
  *              MODEL_CLUSTER_POLYGONS:  per face u8 corners n, u8 flags, u8 material, n x u8 corner, u8 n again
  *              a corner is an index into the cluster's vertices; front faces are counter-clockwise.
@@ -85,6 +96,38 @@ enum {
     CLUSTER_AT_VERTEX_COUNT = 26, /* u8, 3 ... 255 */
     CLUSTER_AT_KIND = 27,         /* u8 */
 };
+/* A material, field by field as tuile_material_t. */
+#define MODEL_MATERIAL_BYTES 16u
+enum {
+    MATERIAL_AT_COLOUR = 0,   /* 3 x u8 */
+    MATERIAL_AT_ALPHA = 3,    /* u8, and so on */
+    MATERIAL_AT_EMISSION = 4, /* 3 x u8 */
+    MATERIAL_AT_SPECULAR = 7,
+    MATERIAL_AT_SHININESS = 8, /* 0 ... 7 */
+    MATERIAL_AT_TEXTURE = 9,   /* index, or TUILE_NO_TEXTURE */
+    MATERIAL_AT_BLEND = 10,
+    MATERIAL_AT_FLAGS = 11,
+    MATERIAL_AT_UV_BITS = 12, /* 0 ... MODEL_UV_BITS_MAX */
+    MATERIAL_AT_ZERO = 13,    /* 3 x 0 */
+};
+#define MODEL_UV_BITS_MAX 8u
+#define MODEL_SHININESS_MAX 7u
+
+/* A texture: see tuile_texture_t, also for how its levels lie. */
+#define MODEL_TEXTURE_BYTES 20u
+enum {
+    TEXTURE_AT_TEXELS = 0,  /* u32, from the start of the block */
+    TEXTURE_AT_PALETTE = 4, /* u32, the same; 0 without a palette */
+    TEXTURE_AT_WIDTH = 8,   /* u16, 1 ... TUILE_TEXTURE_MAX */
+    TEXTURE_AT_HEIGHT = 10,
+    TEXTURE_AT_FORMAT = 12, /* u8, tuile_texel_t */
+    TEXTURE_AT_LEVELS = 13, /* u8, 1 ... as many as lead to one texel */
+    TEXTURE_AT_FLAGS = 14,  /* u8, tuile_texture_flags_t */
+    TEXTURE_AT_ZERO = 15,   /* u8, 0 */
+    TEXTURE_AT_KEY = 16,    /* u16, a texel of the format; 0 without TUILE_TEXTURE_KEY */
+    TEXTURE_AT_ZERO2 = 18,  /* u16, 0 */
+};
+
 enum { MODEL_CLUSTER_TRIANGLES = 0, MODEL_CLUSTER_POLYGONS = 1 };
 #define MODEL_POLYGON_BYTES(corners) (4u + (corners))
 enum {
@@ -129,5 +172,23 @@ static inline uint32_t model_u32(const uint8_t *p) {
 
 /* CRC-32 as in the header; start with crc = 0. */
 uint32_t model_crc32(uint32_t crc, const uint8_t *bytes, size_t size_bytes);
+
+/* model_surface.c: bytes of all levels of a texture; width, height >= 1, levels <= 12: below 2^24. */
+uint32_t model_texture_bytes(unsigned format, uint32_t width, uint32_t height, unsigned levels);
+
+/* Entries of the palette of a format, 0 for formats without one. */
+unsigned model_palette_entries(unsigned format);
+
+/* The section of count * item_bytes bytes whose offset stands at `at` in the header, or NULL. */
+const uint8_t *model_section(const tuile_model_t *model, unsigned at, uint32_t count, uint32_t item_bytes);
+
+/* The box is believed by those who order instances: no position may lie outside of it. */
+bool model_in_box(const tuile_model_t *model, const uint8_t *positions);
+
+/* Sets the materials, texture coordinates, colours and textures of a model whose counts are known, all checked; false: damaged. */
+bool model_open_surface(tuile_model_t *model);
+
+/* The same for the second key frame; the box and the tree must be known. */
+bool model_open_morph(tuile_model_t *model);
 
 #endif

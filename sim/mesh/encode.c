@@ -138,6 +138,20 @@ static bool encode_source(encoder_t *e, size_t source_face_count) {
     return wide && !identity;
 }
 
+static void encode_materials(encoder_t *e, const mesh_t *mesh) {
+    static const tuile_material_t plain = {.alpha = 255, .texture = TUILE_NO_TEXTURE};
+    for (size_t m = 0; m < mesh->material_count; m++) {
+        const tuile_material_t *from = mesh->surfaces ? &mesh->surfaces[m] : &plain;
+        const uint8_t *colour = mesh->materials[m];
+        const uint8_t entry[MODEL_MATERIAL_BYTES] = {
+            colour[0],      colour[1],       colour[2],     from->alpha, from->emission[0], from->emission[1], from->emission[2],
+            from->specular, from->shininess, from->texture, from->blend, from->flags,       from->uv_bits};
+        for (size_t i = 0; i < sizeof entry; i++) {
+            put(e, &e->materials, entry[i], 1);
+        }
+    }
+}
+
 static uint32_t place(sheet_t *out, encoder_t *e, sheet_t *section) {
     size_t at = out->size;
     for (size_t i = 0; i < section->size; i++) {
@@ -240,12 +254,7 @@ int solid_encode(const solid_t *solid, const clusters_t *clusters, const mesh_t 
     for (size_t k = 0; !e.failed && k < clusters->count; k++) {
         encode_cluster(&e, k);
     }
-    for (size_t m = 0; m < mesh->material_count; m++) {
-        for (int k = 0; k < 3; k++) {
-            put(&e, &e.materials, mesh->materials[m][k], 1);
-        }
-        put(&e, &e.materials, 0, 1);
-    }
+    encode_materials(&e, mesh);
     bool source32 = encode_source(&e, mesh->source_face_count);
     align(&e, &e.faces);
     for (size_t i = 0; tree && i < tree->count; i++) {

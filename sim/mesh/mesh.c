@@ -11,6 +11,7 @@ void mesh_free(mesh_t *mesh) {
     free(mesh->corner_normals);
     free(mesh->faces);
     free(mesh->materials);
+    free(mesh->surfaces);
     memset(mesh, 0, sizeof *mesh);
 }
 

@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "../../raster/tuile.h"
 #include "../error.h"
 
 /* Polygons as imported: doubles, heap memory owned by the struct. */
@@ -30,7 +31,8 @@ typedef struct mesh {
     size_t corner_count;
     mesh_face_t *faces;
     size_t face_count;
-    uint8_t (*materials)[3]; /* red, green, blue; at least one */
+    uint8_t (*materials)[3];    /* red, green, blue; at least one */
+    tuile_material_t *surfaces; /* all of each material but its colour; NULL: opaque, lit, without a texture */
     size_t material_count;
     size_t source_face_count; /* faces that the importer delivered, skipped ones included */
     size_t skipped_count;     /* degenerate ones among them */

@@ -26,7 +26,7 @@ static decoder_model_t read_model(const uint8_t *b, size_t size_bytes) {
     assert_memory_equal(b, "TUIL", 4);
     assert_int_equal(decoder_u32(b + 4), size_bytes);
     assert_int_equal(decoder_u32(b + 8), crc_of(b + 12, size_bytes - 12));
-    assert_int_equal(decoder_u16(b + 12), 2);
+    assert_int_equal(decoder_u16(b + 12), 3);
     m.vertex_count = decoder_u32(b + 16);
     m.face_count = decoder_u32(b + 20);
     m.cluster_count = decoder_u32(b + 24);
