@@ -55,6 +55,21 @@ static void stage_same(const surface_t *surface, int32_t x, int32_t y, int32_t c
     }
 }
 
+/* c * factor / 255, rounded, component by component. */
+TUILE_INLINE uint32_t multiply(uint32_t c, uint32_t factor) {
+    return pixel_div255((c >> 24) * (factor >> 24) + 127u) << 24 |
+           PIXEL_RGB(pixel_div255((c >> 16 & 255u) * (factor >> 16 & 255u) + 127u), pixel_div255((c >> 8 & 255u) * (factor >> 8 & 255u) + 127u),
+                     pixel_div255((c & 255u) * (factor & 255u) + 127u));
+}
+
+static void stage_multiply(const surface_t *surface, int32_t x, int32_t y, int32_t count, uint32_t *argb) {
+    (void)x;
+    (void)y;
+    for (int32_t i = 0; i < count; i++) {
+        argb[i] = multiply(argb[i], surface->argb);
+    }
+}
+
 static void stage_white_light(const surface_t *surface, int32_t x, int32_t y, int32_t count, uint32_t *argb) {
     const light_plane_t *plane = &surface->light;
     uint32_t light = plane->light + plane->dx * (uint32_t)x + plane->dy * (uint32_t)y;
@@ -65,7 +80,28 @@ static void stage_white_light(const surface_t *surface, int32_t x, int32_t y, in
     }
 }
 
+static void stage_texture(const surface_t *surface, int32_t x, int32_t y, int32_t count, uint32_t *argb) {
+    texture_run(&surface->texture, x, y, count, argb);
+}
+
 /* ---- making one ---- */
+
+/* Texture coordinates of a corner as texels, Q.8: the model's have `uv_bits` bits of fraction and 8 more. */
+static texture_corner_t texture_corner(const surface_corner_t *corner, unsigned uv_bits) {
+    return (texture_corner_t){corner->at.x, corner->at.y, corner->at.depth_light >> 8, corner->attributes.s >> uv_bits,
+                              corner->attributes.t >> uv_bits};
+}
+
+static void texture_open(surface_t *surface, const surface_face_t *face) {
+    const unsigned bits = face->material.uv_bits;
+    const texture_corner_t corner[3] = {texture_corner(&face->corner[0], bits), texture_corner(&face->corner[1], bits),
+                                        texture_corner(&face->corner[2], bits)};
+    texture_plane_make(&surface->texture, &face->texture, corner,
+                       (texture_wish_t){.bilinear = face->material.flags & TUILE_MATERIAL_BILINEAR && !(face->texturing & TUILE_TEXTURE_NEAREST),
+                                        .affine = face->texturing & TUILE_TEXTURE_AFFINE,
+                                        .mips = !(face->texturing & TUILE_TEXTURE_NO_MIPS),
+                                        .perspective = face->perspective});
+}
 
 /* The light of the three corners as a plane; `a` is a topmost corner, counter-clockwise. */
 static void white_light(surface_t *surface, const vertex_t *a, const vertex_t *b, const vertex_t *c) {
@@ -73,22 +109,38 @@ static void white_light(surface_t *surface, const vertex_t *a, const vertex_t *b
     triangle_planes(a, b, c, &unused, &surface->light);
 }
 
+/* The light of a face that is lit alike all over, or -1. */
+static int32_t light_alike(const surface_face_t *face) {
+    const uint8_t a = (uint8_t)face->corner[0].at.depth_light;
+    if (face->material.flags & TUILE_MATERIAL_UNLIT) { return 255; }
+    if (face->flat) { return face->flat_light[0]; }
+    return (uint8_t)face->corner[1].at.depth_light == a && (uint8_t)face->corner[2].at.depth_light == a ? a : -1;
+}
+
+static uint32_t rgb_lit(const uint8_t colour[3], uint32_t light) { return pixel_lit(PIXEL_RGB888, colour, light); }
+
 void surface_make(surface_t *surface, const surface_face_t *face, pixel_kind_t kind) {
     const uint8_t *colour = face->material.colour;
-    const vertex_t *a = &face->corner[0].at, *b = &face->corner[1].at, *c = &face->corner[2].at;
+    const bool textured = face->material.texture != TUILE_NO_TEXTURE;
+    const int32_t alike = light_alike(face);
+    surface_stage_fn *stage = surface->stage;
     surface->kind = kind;
     surface->blend = face->material.blend;
-    surface->argb = (uint32_t)face->material.alpha << 24 | PIXEL_RGB(colour[0], colour[1], colour[2]);
-    const bool same_light = face->flat || ((uint8_t)a->depth_light == (uint8_t)b->depth_light && (uint8_t)a->depth_light == (uint8_t)c->depth_light);
-    if (same_light) {
-        const uint8_t light = face->flat ? face->flat_light[0] : (uint8_t)a->depth_light;
-        surface->sample = pixel_lit(kind, colour, light);
+    surface->fill = surface_fill_stages;
+    if (!textured && alike >= 0) {
+        surface->sample = pixel_lit(kind, colour, (uint32_t)alike);
         surface->fill = surface_fill_same;
         return;
     }
-    white_light(surface, a, b, c);
-    surface->stage[0] = stage_same;
-    surface->stage[1] = stage_white_light;
-    surface->stage[2] = NULL;
-    surface->fill = surface_fill_stages;
+    surface->argb = (uint32_t)face->material.alpha << 24 | rgb_lit(colour, alike >= 0 ? (uint32_t)alike : 255u);
+    *stage++ = textured ? stage_texture : stage_same;
+    if (textured) {
+        texture_open(surface, face);
+        if (surface->argb != 0xffffffffu) { *stage++ = stage_multiply; }
+    }
+    if (alike < 0) {
+        white_light(surface, &face->corner[0].at, &face->corner[1].at, &face->corner[2].at);
+        *stage++ = stage_white_light;
+    }
+    *stage = NULL;
 }

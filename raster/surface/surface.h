@@ -4,8 +4,8 @@
  * by run, by the same few functions whatever the method was. All that varies over a face is told by planes in the window that can
  * be entered at any pixel, so a pixel's colour does not depend on the runs, tiles or passes that led to it.
  *
- * A run goes through stages, 32 samples at a time: texture or one colour; light; fog; into the tile. Stages that a face does not
- * want are not there.
+ * A run goes through stages, 32 samples at a time: texture or one colour; material; light; fog; into the tile. Stages that a face does
+ * not want are not there.
  */
 #ifndef TUILE_SURFACE_SURFACE_H
 #define TUILE_SURFACE_SURFACE_H
@@ -45,13 +45,13 @@ typedef void (*surface_stage_fn)(const surface_t *surface, int32_t x, int32_t y,
 /* A run of any length into the samples of a tile, which begin at `samples` for x. */
 typedef void (*surface_fill_fn)(const surface_t *surface, int32_t x, int32_t y, int32_t count, void *samples);
 
-enum { SURFACE_STAGES = 3 };
+enum { SURFACE_STAGES = 5 };
 
 struct surface {
     surface_fill_fn fill;
     surface_stage_fn stage[SURFACE_STAGES]; /* in their order; they end at NULL */
     pixel_kind_t kind;
-    uint32_t argb;   /* the colour where it is the same all over */
+    uint32_t argb;   /* what is the same all over: the colour, or of textures and of light that varies a factor, with alpha */
     uint32_t sample; /* the same, in the tile's samples */
     light_plane_t light;       /* white light, Q8.24, as fill/triangle.c has it */
     light_plane_t channel[5];  /* red, green, blue, highlight, alpha: surface/light.h */

@@ -45,8 +45,9 @@ typedef struct texture_plane {
     tuile_texture_t texture;
     texture_level_t level;
     uint8_t level_number;
-    bool bilinear;
+    bool bilinear, mips;
     bool perspective;
+    int32_t level_q; /* texture_plane.c */
     /* Affine: */
     texture_affine32_t s, t;
     /* Perspective: s = s0 + u / q, and so for t: texture_plane.c has their units. */
@@ -70,11 +71,19 @@ typedef struct texture_wish {
 /* Sets all of plane up. Corners with an area other than 0. */
 void texture_plane_make(texture_plane_t *plane, const tuile_texture_t *texture, const texture_corner_t corner[3], texture_wish_t wish);
 
+/* In perspective the level is chosen for so many columns at once: that at sample (x, y). */
+#define TEXTURE_BLOCK 16
+unsigned texture_level_at(const texture_plane_t *plane, int32_t x, int32_t y);
+
 /* Coordinates of samples (x ... x + count - 1, y) in texels of level 0, Q16.16; any count. */
 void texture_coordinates(const texture_plane_t *plane, int32_t x, int32_t y, int32_t count, int32_t *s, int32_t *t);
 
-/* Texels at those coordinates, as 0xaarrggbb; count <= 32. */
-void texture_fetch(const texture_plane_t *plane, const int32_t *s, const int32_t *t, int32_t count, uint32_t *argb);
+/* Texels of a level at those coordinates, as 0xaarrggbb: the nearest ones or interpolated. number: the level's. */
+void texture_fetch(const texture_plane_t *plane, const texture_level_t *level, unsigned number, const int32_t *s, const int32_t *t,
+                   int32_t count, uint32_t *argb);
+
+/* The texture at samples (x ... x + count - 1, y), count <= 32, as 0xaarrggbb. */
+void texture_run(const texture_plane_t *plane, int32_t x, int32_t y, int32_t count, uint32_t *argb);
 
 /* Mip level `number` < texture->levels. */
 texture_level_t texture_level(const tuile_texture_t *texture, unsigned number);
