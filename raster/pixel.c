@@ -11,8 +11,8 @@ pixel_kind_t pixel_kind_of(uint8_t format, bool dither) {
     default: break;
     }
     if (dither) { return PIXEL_RGB888; }
-    return format == TUILE_RGB444   ? PIXEL_RGB444
-           : format == TUILE_RGB332 ? PIXEL_RGB332
+    return format == TUILE_RGB444      ? PIXEL_RGB444
+           : format == TUILE_RGB332    ? PIXEL_RGB332
            : format == TUILE_RGB565_LE ? PIXEL_RGB565_LE
                                        : PIXEL_RGB565_BE;
 }

@@ -1,5 +1,5 @@
-/* Deferred shading: the picture of a scene that wants no effects is the one that is drawn without them, by all methods, in any memory,
- * through any tiles. */
+/* Deferred shading: the picture of a scene that wants no effects is the one that is drawn without them, by all methods, in any
+ * memory, through any tiles. */
 #include "support/check.h"
 #include "support/frame.h"
 #include "support/models.h"

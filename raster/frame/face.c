@@ -351,7 +351,8 @@ static int bin_polygon_any(tuile_t *t, const frame_cluster_t *cluster, const uin
         if (outside) {
             result = bin_clipped(t, cluster, fan ? part : corner, fan ? 3 : corners, material, normal, id);
         } else if (far_apart && (fan || corners == 3) && t->numbers != NULL) {
-            const polygon_ring_t ring = {v, part, NULL, 3}; /* a listed polygon's corners stand where their attributes are told by */
+            const polygon_ring_t ring = {v, part, NULL,
+                                         3}; /* a listed polygon's corners stand where their attributes are told by */
             result = bin_polygon(t, &ring, v, material, normal, id);
         } else if (far_apart && (fan || corners == 3)) {
             result = bin_far_triangle(t, cluster, part, material, normal, id);

@@ -216,7 +216,8 @@ int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     t->stats.least_bytes = least;
     t->stats.faces = faces;
     t->scene = scene;
-    t->background = pixel_pack((pixel_kind_t)t->pixel_kind, PIXEL_RGB(scene->background[0], scene->background[1], scene->background[2]));
+    t->background =
+        pixel_pack((pixel_kind_t)t->pixel_kind, PIXEL_RGB(scene->background[0], scene->background[1], scene->background[2]));
 
     /* One ramp is always there; the others may take an eighth of the arena. */
     const size_t arena = (size_t)(t->arena_end - t->arena), ramp = RAMP_BYTES + sizeof(int16_t);

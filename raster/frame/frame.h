@@ -53,9 +53,9 @@ _Static_assert(sizeof(record_surface_t) == sizeof(record_id_t), "records are cop
 typedef struct source_slot {
     uint32_t first_vertex; /* of the model: that of the first slot behind this one */
     uint16_t instance;
-    uint16_t colours;    /* slot of the light at the vertices: 4 bytes each, red, green, blue, highlight, 255 = 1.0; 0: light is
-                            the vertex's own number */
-    uint16_t attributes; /* clipped: slot of the vertices' clip_attributes_t; 0: they are the model's */
+    uint16_t colours;     /* slot of the light at the vertices: 4 bytes each, red, green, blue, highlight, 255 = 1.0; 0: light is
+                             the vertex's own number */
+    uint16_t attributes;  /* clipped: slot of the vertices' clip_attributes_t; 0: they are the model's */
     uint16_t is_coloured; /* clipped: attributes have light */
     uint32_t unused;
 } source_slot_t;
@@ -142,7 +142,7 @@ typedef struct tuile {
     uint16_t *numbers;   /* deferred shading: which face is seen at each sample, its record's number + 1; else NULL */
     uint8_t samples;     /* log2 of those along a pixel */
     uint8_t pixel_kind;  /* pixel_kind_t */
-    uint16_t *buckets; /* one per tile row of the window */
+    uint16_t *buckets;   /* one per tile row of the window */
     uint8_t *arena, *arena_end;
     uint16_t tile_columns, tile_rows;
     uint8_t record_bytes;
@@ -151,7 +151,7 @@ typedef struct tuile {
     uint16_t *ramps;
     int16_t *ramp_tags;
     uint16_t ramp_count;
-    uint32_t background; /* a sample */
+    uint32_t background;   /* a sample */
     tuile_camera_t camera; /* the scene's, in samples */
     /* Display trees. */
     uint32_t *tree_stack;     /* config.tree_depth */

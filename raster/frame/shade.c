@@ -20,7 +20,8 @@ void shade_clear(tuile_t *t) {
 
 /* ---- a record as a face to be shaded ---- */
 
-static void corner_open(const tuile_t *t, const source_slot_t *source, uint32_t first, const vertex_t *vertex, surface_corner_t *corner) {
+static void corner_open(const tuile_t *t, const source_slot_t *source, uint32_t first, const vertex_t *vertex,
+                        surface_corner_t *corner) {
     const uint32_t k = (uint32_t)(vertex - t->vertices) - first;
     const tuile_model_t *model = t->scene->instances[source->instance].model;
     clip_attributes_t *to = &corner->attributes;
@@ -97,7 +98,8 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
 /* ---- numbers to samples ---- */
 
 /* All samples of the face with this number from row `top` of the window on, in columns left ... right - 1. */
-static void shade_box(tuile_t *t, const surface_t *surface, uint16_t value, int32_t left, int32_t top, int32_t right, int32_t bottom) {
+static void shade_box(tuile_t *t, const surface_t *surface, uint16_t value, int32_t left, int32_t top, int32_t right,
+                      int32_t bottom) {
     const int32_t stride = t->tile.stride_px;
     const size_t bytes = pixel_bytes((pixel_kind_t)t->pixel_kind);
     uint8_t *tile = t->working ? t->working : t->colours[t->next_buffer];

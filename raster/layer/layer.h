@@ -1,7 +1,7 @@
-/* Layers: what is drawn over the opaque faces of a tile, with depth: translucent faces, sprites, lines. They may lie in front of and
- * behind one another in any way, so each sample gets its fragments in the order of their depths, farthest first, by peeling: the
- * fragment that is farthest of those nearer than the last one is looked for among all, blended, and so on until there is none. The
- * order in which faces, sprites and lines were submitted decides ties only.
+/* Layers: what is drawn over the opaque faces of a tile, with depth: translucent faces, sprites, lines. They may lie in front of
+ * and behind one another in any way, so each sample gets its fragments in the order of their depths, farthest first, by peeling:
+ * the fragment that is farthest of those nearer than the last one is looked for among all, blended, and so on until there is none.
+ * The order in which faces, sprites and lines were submitted decides ties only.
  *
  * Memory: a band of rows of the tile at a time, sizeof(layer_sample_t) + 2 bytes a sample.
  */
@@ -10,17 +10,18 @@
 
 #include "../frame/frame.h"
 
-/* A place in the order of fragments: farther first, of equally deep ones the one with the lower number last, as it would be seen. */
+/* A place in the order of fragments: farther first, of equally deep ones the one with the lower number last, as it would be seen.
+ */
 typedef struct layer_key {
     uint16_t depth;  /* as in the depth buffer; 0: none */
     uint16_t number; /* of the item */
 } layer_key_t;
 
 typedef struct layer_sample {
-    layer_key_t last;  /* what was blended last */
-    layer_key_t next;  /* the farthest one nearer than that, so far */
-    uint32_t argb;     /* its colour and alpha */
-    uint8_t blend;     /* tuile_blend_t */
+    layer_key_t last; /* what was blended last */
+    layer_key_t next; /* the farthest one nearer than that, so far */
+    uint32_t argb;    /* its colour and alpha */
+    uint8_t blend;    /* tuile_blend_t */
     uint8_t unused[3];
 } layer_sample_t;
 
@@ -38,12 +39,14 @@ TUILE_INLINE bool layer_wants(layer_band_t *band, int32_t x, int32_t y, uint16_t
     layer_sample_t *s = *sample = &band->samples[at];
     if (depth <= band->depth[at]) { return false; }
     /* Nearer than the last, farther than the next: as numbers, with lower item numbers nearer. */
-    const uint32_t key = (uint32_t)depth << 16 | (uint16_t)~number, last = (uint32_t)s->last.depth << 16 | (uint16_t)~s->last.number,
+    const uint32_t key = (uint32_t)depth << 16 | (uint16_t)~number,
+                   last = (uint32_t)s->last.depth << 16 | (uint16_t)~s->last.number,
                    next = (uint32_t)s->next.depth << 16 | (uint16_t)~s->next.number;
     return (s->last.depth == 0 || key > last) && (s->next.depth == 0 || key < next);
 }
 
-TUILE_INLINE void layer_put(layer_band_t *band, layer_sample_t *sample, uint16_t depth, uint16_t number, uint32_t argb, uint8_t blend) {
+TUILE_INLINE void layer_put(layer_band_t *band, layer_sample_t *sample, uint16_t depth, uint16_t number, uint32_t argb,
+                            uint8_t blend) {
     sample->next = (layer_key_t){depth, number};
     sample->argb = argb;
     sample->blend = blend;

@@ -58,7 +58,8 @@ static void stage_same(const surface_t *surface, int32_t x, int32_t y, int32_t c
 /* c * factor / 255, rounded, component by component. */
 TUILE_INLINE uint32_t multiply(uint32_t c, uint32_t factor) {
     return pixel_div255((c >> 24) * (factor >> 24) + 127u) << 24 |
-           PIXEL_RGB(pixel_div255((c >> 16 & 255u) * (factor >> 16 & 255u) + 127u), pixel_div255((c >> 8 & 255u) * (factor >> 8 & 255u) + 127u),
+           PIXEL_RGB(pixel_div255((c >> 16 & 255u) * (factor >> 16 & 255u) + 127u),
+                     pixel_div255((c >> 8 & 255u) * (factor >> 8 & 255u) + 127u),
                      pixel_div255((c & 255u) * (factor & 255u) + 127u));
 }
 
@@ -96,11 +97,12 @@ static void texture_open(surface_t *surface, const surface_face_t *face) {
     const unsigned bits = face->material.uv_bits;
     const texture_corner_t corner[3] = {texture_corner(&face->corner[0], bits), texture_corner(&face->corner[1], bits),
                                         texture_corner(&face->corner[2], bits)};
-    texture_plane_make(&surface->texture, &face->texture, corner,
-                       (texture_wish_t){.bilinear = face->material.flags & TUILE_MATERIAL_BILINEAR && !(face->texturing & TUILE_TEXTURE_NEAREST),
-                                        .affine = face->texturing & TUILE_TEXTURE_AFFINE,
-                                        .mips = !(face->texturing & TUILE_TEXTURE_NO_MIPS),
-                                        .perspective = face->perspective});
+    texture_plane_make(
+        &surface->texture, &face->texture, corner,
+        (texture_wish_t){.bilinear = face->material.flags & TUILE_MATERIAL_BILINEAR && !(face->texturing & TUILE_TEXTURE_NEAREST),
+                         .affine = face->texturing & TUILE_TEXTURE_AFFINE,
+                         .mips = !(face->texturing & TUILE_TEXTURE_NO_MIPS),
+                         .perspective = face->perspective});
 }
 
 /* The light of the three corners as a plane; `a` is a topmost corner, counter-clockwise. */

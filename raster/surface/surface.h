@@ -1,11 +1,11 @@
 /* What a face looks like: everything that its pixels are computed from, made once for a face and tile.
  *
- * Deferred shading: methods decide which face is seen at each sample, and nothing else; then the faces that are seen are shaded, run
- * by run, by the same few functions whatever the method was. All that varies over a face is told by planes in the window that can
- * be entered at any pixel, so a pixel's colour does not depend on the runs, tiles or passes that led to it.
+ * Deferred shading: methods decide which face is seen at each sample, and nothing else; then the faces that are seen are shaded,
+ * run by run, by the same few functions whatever the method was. All that varies over a face is told by planes in the window that
+ * can be entered at any pixel, so a pixel's colour does not depend on the runs, tiles or passes that led to it.
  *
- * A run goes through stages, 32 samples at a time: texture or one colour; material; light; fog; into the tile. Stages that a face does
- * not want are not there.
+ * A run goes through stages, 32 samples at a time: texture or one colour; material; light; fog; into the tile. Stages that a face
+ * does not want are not there.
  */
 #ifndef TUILE_SURFACE_SURFACE_H
 #define TUILE_SURFACE_SURFACE_H
@@ -51,10 +51,10 @@ struct surface {
     surface_fill_fn fill;
     surface_stage_fn stage[SURFACE_STAGES]; /* in their order; they end at NULL */
     pixel_kind_t kind;
-    uint32_t argb;   /* what is the same all over: the colour, or of textures and of light that varies a factor, with alpha */
-    uint32_t sample; /* the same, in the tile's samples */
-    light_plane_t light;       /* white light, Q8.24, as fill/triangle.c has it */
-    light_plane_t channel[5];  /* red, green, blue, highlight, alpha: surface/light.h */
+    uint32_t argb;       /* what is the same all over: the colour, or of textures and of light that varies a factor, with alpha */
+    uint32_t sample;     /* the same, in the tile's samples */
+    light_plane_t light; /* white light, Q8.24, as fill/triangle.c has it */
+    light_plane_t channel[5]; /* red, green, blue, highlight, alpha: surface/light.h */
     texture_plane_t texture;
     depth_plane_t depth; /* where fog or a layer wants it */
     uint8_t blend;       /* tuile_blend_t, where the face is translucent */

@@ -10,8 +10,8 @@
  * Perspective. s and t are made at every 16th column of the window, whatever the run, and are linear between, as long as the same
  * bound, for those 16 columns, is at most 1/4 texel; else they are made for each sample.
  *
- * Errors besides: of gradients, below 1/16 texel (texture_plane.c). So an address is within 1/2 texel of the exact one through the
- * snapped corners.
+ * Errors besides: of roundings, below 1/4 texel (texture_plane.c). So an address is within 1/2 texel of the exact one through the
+ * snapped corners, on faces that are up to 32768 texels across and 256 times as far off at one end as at the other.
  *
  * Texels are addressed by floor(s), floor(t), brought into the texture by repeating or clamping. Nothing else reaches memory, so no
  * coordinates lead out of a texture.
@@ -52,9 +52,9 @@ typedef struct texture_plane {
     texture_affine32_t s, t;
     /* Perspective: s = s0 + u / q, and so for t: texture_plane.c has their units. */
     texture_affine64_t u, v, q;
-    int32_t s0, t0;     /* texels, Q16.16 */
-    int8_t shift;       /* texels Q16.16 = u * 2^-shift * (reciprocal of q) */
-    int32_t q_least;    /* over the face */
+    int32_t s0, t0;  /* texels, Q16.16 */
+    int8_t shift;    /* texels Q16.16 = u * 2^-shift * (reciprocal of q) */
+    int64_t q_least; /* half of what it is over the face */
 } texture_plane_t;
 
 /* A corner: window, depth, and coordinates in texels of level 0, Q.8. */
@@ -69,7 +69,8 @@ typedef struct texture_wish {
 } texture_wish_t;
 
 /* Sets all of plane up. Corners with an area other than 0. */
-void texture_plane_make(texture_plane_t *plane, const tuile_texture_t *texture, const texture_corner_t corner[3], texture_wish_t wish);
+void texture_plane_make(texture_plane_t *plane, const tuile_texture_t *texture, const texture_corner_t corner[3],
+                        texture_wish_t wish);
 
 /* In perspective the level is chosen for so many columns at once: that at sample (x, y). */
 #define TEXTURE_BLOCK 16

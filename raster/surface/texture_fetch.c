@@ -72,8 +72,10 @@ static void fetch_bilinear(const tuile_texture_t *texture, const texture_level_t
         const uint32_t s0 = bring_in(&axis[0], at_s >> 16), s1 = bring_in(&axis[0], (at_s >> 16) + 1);
         const uint32_t t0 = bring_in(&axis[1], at_t >> 16), t1 = bring_in(&axis[1], (at_t >> 16) + 1);
         const uint32_t across = (uint32_t)at_s >> 8 & 255u, down = (uint32_t)at_t >> 8 & 255u;
-        const uint32_t upper = mixed(texture_level_texel(texture, level, s0, t0), texture_level_texel(texture, level, s1, t0), across);
-        const uint32_t lower = mixed(texture_level_texel(texture, level, s0, t1), texture_level_texel(texture, level, s1, t1), across);
+        const uint32_t upper =
+            mixed(texture_level_texel(texture, level, s0, t0), texture_level_texel(texture, level, s1, t0), across);
+        const uint32_t lower =
+            mixed(texture_level_texel(texture, level, s0, t1), texture_level_texel(texture, level, s1, t1), across);
         argb[i] = mixed(upper, lower, down);
     }
 }
@@ -82,8 +84,8 @@ static void fetch_bilinear(const tuile_texture_t *texture, const texture_level_t
 
 static bool is_power(uint32_t size) { return (size & (size - 1)) == 0; }
 
-static void fetch_powers(const tuile_texture_t *texture, const texture_level_t *level, unsigned number, const int32_t *s, const int32_t *t,
-                         int32_t count, uint32_t *argb) {
+static void fetch_powers(const tuile_texture_t *texture, const texture_level_t *level, unsigned number, const int32_t *s,
+                         const int32_t *t, int32_t count, uint32_t *argb) {
     const uint32_t mask_s = level->width - 1u, mask_t = level->height - 1u;
     const unsigned shift = 16 + number;
     for (int32_t i = 0; i < count; i++) {
@@ -98,7 +100,8 @@ void texture_fetch(const texture_plane_t *plane, const texture_level_t *level, u
                             axis_of(level->height, texture->height, number, texture->flags & TUILE_TEXTURE_CLAMP_T)};
     if (plane->bilinear) {
         fetch_bilinear(texture, level, axis, s, t, count, argb);
-    } else if (!axis[0].clamp && !axis[1].clamp && axis[0].halved && axis[1].halved && is_power(level->width) && is_power(level->height)) {
+    } else if (!axis[0].clamp && !axis[1].clamp && axis[0].halved && axis[1].halved && is_power(level->width) &&
+               is_power(level->height)) {
         fetch_powers(texture, level, number, s, t, count, argb);
     } else {
         fetch_nearest(texture, level, axis, s, t, count, argb);

@@ -5,12 +5,12 @@
  * pixel, here |num| < 2^25, 2^-10 texel a pixel, over 2 * 32 pixels 1/16 texel; floors of the second, 2^-16 a pixel, over 2 * 2048
  * pixels 1/16 texel.
  *
- * Perspective planes. Coordinates are taken from the first corner, with 16 bits (units of 2^-`bits` texel), 1/w with 20 bits, so
- * products have 36. Gradients: u per pixel with 6 bits of fraction, q with 11, exact quotients, floored:
- *     |2 * 2^36 * 2^15| << 10 < 2^63.
- * A corner's 1/w is off by half of its last bit, in u and q alike, so u / q is right at the corners, and in between off by at most
- * (most s - least s) / 2^21 * (most q / least q). Floors are off by 2^-6 a pixel in u: over 2 * 2048 pixels 2^6, which is 2^6 / q
- * units of s.
+ * Perspective planes. Coordinates are taken from the first corner, rounded to 18 bits with the sign: half a unit is the 2^18th part
+ * of what the face is across, 1/8 texel for 32768. The depth has 24 bits, whole, so u = s * depth has 41. Gradients are exact
+ * quotients, floored; that of q with 18 bits of fraction:
+ *     |2 * 2^42 * 2^15| << 4 < 2^63,  |2 * 2^25 * 2^15| << 22 < 2^64.
+ * Over 2 * 2048 pixels floors are off by 2^12 in u, which is 2^12 / q units: 1/16 of a unit where the face is 256 times as far as
+ * at its nearest; and by 2^12 / 2^18 in q, so that s is off by 2^-22 of itself there.
  */
 #include "../tune.h"
 
@@ -20,9 +20,10 @@
 #include "../fill/gradient.h"
 
 #define SMALL_TEXELS (1 << 15) /* Q.8 */
-#define Q_BITS 20u
-#define Q_FRACTION 11u
-#define U_FRACTION 6u
+#define S_BITS 18u
+#define Q_BITS 24u
+#define Q_FRACTION 18u
+#define U_FRACTION 0u
 
 typedef struct span3 {
     int32_t least, most;
@@ -77,9 +78,11 @@ static int32_t log2_q8(uint64_t x) {
 }
 
 /* A pixel is drawn from the level at which it is about a texel large, by areas. Texels' area over pixels' area is K / q^3 on a
- * plane, and of the whole face K / (q0 q1 q2). Returns 2 log2 of the side of a pixel in texels, Q.8; plus 3 log2 q in perspective. */
+ * plane, and of the whole face K / (q0 q1 q2). Returns 2 log2 of the side of a pixel in texels, Q.8; plus 3 log2 q in perspective.
+ */
 static int32_t level_plane(const texture_corner_t corner[3], int32_t area) {
-    const int64_t s1 = corner[1].s - corner[0].s, t1 = corner[1].t - corner[0].t, s2 = corner[2].s - corner[0].s, t2 = corner[2].t - corner[0].t;
+    const int64_t s1 = corner[1].s - corner[0].s, t1 = corner[1].t - corner[0].t, s2 = corner[2].s - corner[0].s,
+                  t2 = corner[2].t - corner[0].t;
     const int64_t turned = s1 * t2 - s2 * t1; /* twice the area in texels, Q.16; |s|, |t| < 2^24; the window's: Q.8 */
     return log2_q8((uint64_t)(turned < 0 ? -turned : turned)) - 8 * 256 - log2_q8((uint32_t)area);
 }
@@ -91,7 +94,8 @@ TUILE_INLINE unsigned level_held(int32_t side_squared, unsigned levels) {
 
 /* ---- perspective ---- */
 
-static texture_affine64_t gradient64(const frame3_t *f, const texture_corner_t *a, int64_t c0, int64_t c1, int64_t c2, unsigned fraction) {
+static texture_affine64_t gradient64(const frame3_t *f, const texture_corner_t *a, int64_t c0, int64_t c1, int64_t c2,
+                                     unsigned fraction) {
     c1 -= c0;
     c2 -= c0;
     const int64_t nx = c2 * f->y1 - c1 * f->y2, ny = c1 * f->x2 - c2 * f->x1;
@@ -100,18 +104,24 @@ static texture_affine64_t gradient64(const frame3_t *f, const texture_corner_t *
     return (texture_affine64_t){origin(g, fixed_shift_left64(c0, fraction), a), g.dx, g.dy};
 }
 
-static TUILE_NOINLINE void perspective_make(texture_plane_t *plane, const frame3_t *f, const texture_corner_t *corner[3], uint32_t most) {
+#define CUT_LEAST 14
+
+TUILE_INLINE int32_t cut_off(int32_t x, int bits) { return bits > 0 ? (x + (1 << (bits - 1))) >> bits : x * (1 << -bits); }
+
+static TUILE_NOINLINE void perspective_make(texture_plane_t *plane, const frame3_t *f, const texture_corner_t *corner[3],
+                                            uint32_t most) {
     const span3_t s = span3(corner[0]->s, corner[1]->s, corner[2]->s), t = span3(corner[0]->t, corner[1]->t, corner[2]->t);
-    const uint32_t across = (uint32_t)(s.most - s.least), down = (uint32_t)(t.most - t.least), wide = (across > down ? across : down) | 1u;
+    const uint32_t across = (uint32_t)(s.most - s.least), down = (uint32_t)(t.most - t.least),
+                   wide = (across > down ? across : down) | 1u;
     int64_t q[3], u[3], v[3];
     const unsigned n = fixed_clz32(most);
-    /* 15 bits and a sign: of Q.8 texels `cut` bits are cut off, or zeros appended. */
-    const int cut = 17 - (int)fixed_clz32(wide);
+    /* Of Q.8 texels `cut` bits are rounded off, or zeros appended. */
+    const int bits = 33 - (int)S_BITS - (int)fixed_clz32(wide), cut = bits < -CUT_LEAST ? -CUT_LEAST : bits;
     for (unsigned i = 0; i < 3; i++) {
         const int32_t ds = corner[i]->s - corner[0]->s, dt = corner[i]->t - corner[0]->t;
         q[i] = (int64_t)(((uint64_t)corner[i]->depth << n) >> (32 - Q_BITS));
-        u[i] = q[i] * (cut > 0 ? ds >> cut : ds * (1 << -cut));
-        v[i] = q[i] * (cut > 0 ? dt >> cut : dt * (1 << -cut));
+        u[i] = q[i] * cut_off(ds, cut);
+        v[i] = q[i] * cut_off(dt, cut);
     }
     plane->perspective = true;
     plane->u = gradient64(f, corner[0], u[0], u[1], u[2], U_FRACTION);
@@ -119,10 +129,10 @@ static TUILE_NOINLINE void perspective_make(texture_plane_t *plane, const frame3
     plane->q = gradient64(f, corner[0], q[0], q[1], q[2], Q_FRACTION);
     plane->s0 = corner[0]->s * 256;
     plane->t0 = corner[0]->t * 256;
-    /* texels Q16.16 = (u / 2^6) / (q / 2^11) * 2^cut * 2^8 */
+    /* texels Q16.16 = u / (q / 2^18) * 2^cut * 2^8 */
     plane->shift = (int8_t)(8 + (int)Q_FRACTION - (int)U_FRACTION + cut);
     const int64_t least = q[0] < q[1] ? (q[0] < q[2] ? q[0] : q[2]) : (q[1] < q[2] ? q[1] : q[2]);
-    plane->q_least = (int32_t)((least > 1 ? least : 1) << Q_FRACTION);
+    plane->q_least = (least > 1 ? least : 1) << (Q_FRACTION - 1);
     for (unsigned i = 0; plane->mips && i < 3; i++) {
         plane->level_q += log2_q8((uint64_t)(q[i] > 1 ? q[i] : 1) << Q_FRACTION);
     }
@@ -137,9 +147,11 @@ static bool affine_will_do(const texture_corner_t corner[3]) {
     return (uint64_t)(most - least) * (across > down ? across : down) <= (uint64_t)least * 256u;
 }
 
-void texture_plane_make(texture_plane_t *plane, const tuile_texture_t *texture, const texture_corner_t corner[3], texture_wish_t wish) {
+void texture_plane_make(texture_plane_t *plane, const tuile_texture_t *texture, const texture_corner_t corner[3],
+                        texture_wish_t wish) {
     const texture_corner_t *turned[3] = {&corner[0], &corner[1], &corner[2]};
-    frame3_t f = {corner[1].x - corner[0].x, corner[1].y - corner[0].y, corner[2].x - corner[0].x, corner[2].y - corner[0].y, 0, false};
+    frame3_t f = {
+        corner[1].x - corner[0].x, corner[1].y - corner[0].y, corner[2].x - corner[0].x, corner[2].y - corner[0].y, 0, false};
     f.area = f.x2 * f.y1 - f.x1 * f.y2;
     if (f.area < 0) {
         turned[1] = &corner[2];
@@ -174,21 +186,24 @@ TUILE_INLINE int64_t at64(const texture_affine64_t *p, int32_t x, int32_t y) {
     return (int64_t)((uint64_t)p->v + (uint64_t)p->dx * (uint64_t)(int64_t)x + (uint64_t)p->dy * (uint64_t)(int64_t)y);
 }
 
-TUILE_INLINE uint32_t q_held(const texture_plane_t *plane, int64_t q) {
-    return q < plane->q_least ? (uint32_t)plane->q_least : q > INT32_MAX ? INT32_MAX : (uint32_t)q;
+#define Q_MOST ((int64_t)1 << (Q_BITS + Q_FRACTION))
+
+TUILE_INLINE uint64_t q_held(const texture_plane_t *plane, int64_t q) {
+    return (uint64_t)(q < plane->q_least ? plane->q_least : q > Q_MOST ? Q_MOST : q);
 }
 
-/* Exact but for the roundings above; q is held to what the face has. Beyond the face, where no address would be right, place.q is
- * 0. */
+/* Exact but for the roundings above. Beyond the face, where q may be anything, place.q tells whether the rest is right: not where
+ * it is below q_least or above Q_MOST. */
 static place_t place_at(const texture_plane_t *plane, int32_t x, int32_t y) {
     place_t place;
     place.q = at64(&plane->q, x, y);
-    const uint32_t q = q_held(plane, place.q);
-    const unsigned n = fixed_clz32(q);
-    uint32_t r = fixed_reciprocal(q << n); /* 1 / q = r * 2^(n - 62) */
+    const uint64_t q = q_held(plane, place.q);
+    const unsigned n = fixed_clz64(q);                       /* 21 ... 45 */
+    uint32_t r = fixed_reciprocal((uint32_t)(q << n >> 32)); /* 1 / q = r * 2^(n - 94) */
     if (r > INT32_MAX) { r = INT32_MAX; }
-    const unsigned shift = (unsigned)(62 - (int)n - plane->shift); /* 19 ... 62 */
-    const int64_t s = fixed_mul_shift(at64(&plane->u, x, y), (int32_t)r, shift), t = fixed_mul_shift(at64(&plane->v, x, y), (int32_t)r, shift);
+    const unsigned shift = (unsigned)(94 - (int)n - plane->shift); /* 16 ... 61 */
+    const int64_t s = fixed_mul_shift(at64(&plane->u, x, y), (int32_t)r, shift),
+                  t = fixed_mul_shift(at64(&plane->v, x, y), (int32_t)r, shift);
     if (s != (int32_t)s || t != (int32_t)t) { place.q = 0; }
     place.s = (int32_t)((uint32_t)plane->s0 + (uint32_t)s);
     place.t = (int32_t)((uint32_t)plane->t0 + (uint32_t)t);
@@ -196,7 +211,7 @@ static place_t place_at(const texture_plane_t *plane, int32_t x, int32_t y) {
 }
 
 unsigned texture_level_at(const texture_plane_t *plane, int32_t x, int32_t y) {
-    const uint32_t q = q_held(plane, at64(&plane->q, (x & -TEXTURE_BLOCK) + TEXTURE_BLOCK / 2, y));
+    const uint64_t q = q_held(plane, at64(&plane->q, (x & -TEXTURE_BLOCK) + TEXTURE_BLOCK / 2, y));
     return level_held(plane->level_q - 3 * log2_q8(q), plane->texture.levels);
 }
 
@@ -207,10 +222,10 @@ _Static_assert(BLOCK == 1 << BLOCK_BITS, "BLOCK_BITS");
 /* Is what lies between two places of a block linear within a quarter texel? */
 TUILE_INLINE bool block_linear(const texture_plane_t *plane, const place_t *a, const place_t *b) {
     const int64_t least = a->q < b->q ? a->q : b->q, most = a->q < b->q ? b->q : a->q;
-    if (least <= 0 || least < plane->q_least / 2 || most > INT32_MAX) { return false; }
+    if (least < plane->q_least || most > Q_MOST) { return false; }
     const int32_t ds = (int32_t)((uint32_t)b->s - (uint32_t)a->s), dt = (int32_t)((uint32_t)b->t - (uint32_t)a->t);
     const uint32_t across = ds < 0 ? 0u - (uint32_t)ds : (uint32_t)ds, down = dt < 0 ? 0u - (uint32_t)dt : (uint32_t)dt;
-    return (uint64_t)(most - least) * (across > down ? across : down) <= (uint64_t)least << 16;
+    return (uint64_t)((most - least) >> 11) * (across > down ? across : down) <= (uint64_t)(least >> 11) << 16;
 }
 
 static void perspective_coordinates(const texture_plane_t *plane, int32_t x, int32_t y, int32_t count, int32_t *s, int32_t *t) {

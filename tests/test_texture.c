@@ -1,0 +1,262 @@
+/* Texture coordinates against exact arithmetic, and texels brought into a texture by hand. */
+#include "support/check.h"
+#include "support/random.h"
+
+#include "../raster/surface/texture.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- coordinates ---- */
+
+typedef struct worst {
+    double all, affine;
+    uint32_t faces, affine_faces, pixels;
+} worst_t;
+
+/* Exact: s at the centre of pixel (x, y), through the snapped corners. False outside the face. */
+static bool exact(const texture_corner_t c[3], int32_t x, int32_t y, bool perspective, long double st[2]) {
+    const int64_t px = 16 * x + 8, py = 16 * y + 8;
+    int64_t b[3], area = 0;
+    long double q = 0, u = 0, v = 0;
+    for (int i = 0; i < 3; i++) {
+        const texture_corner_t *a = &c[(i + 1) % 3], *d = &c[(i + 2) % 3];
+        b[i] = (a->x - px) * (d->y - py) - (d->x - px) * (a->y - py);
+        area += b[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        if (area > 0 ? b[i] < 0 : b[i] > 0) { return false; }
+        const long double weight = (long double)b[i] * (perspective ? c[i].depth : 1u);
+        q += weight;
+        u += weight * c[i].s;
+        v += weight * c[i].t;
+    }
+    st[0] = u / q / 256;
+    st[1] = v / q / 256;
+    return true;
+}
+
+static void walk(const texture_corner_t c[3], bool perspective, int32_t tile, worst_t *worst) {
+    tuile_texture_t texture = {.texels = (const uint8_t *)"", .width = 64, .height = 64, .levels = 1};
+    texture_plane_t plane;
+    int32_t low[2] = {INT32_MAX, INT32_MAX}, high[2] = {INT32_MIN, INT32_MIN};
+    texture_plane_make(&plane, &texture, c, (texture_wish_t){.perspective = perspective});
+    for (int i = 0; i < 3; i++) {
+        const int32_t at[2] = {c[i].x >> 4, c[i].y >> 4};
+        for (int k = 0; k < 2; k++) {
+            low[k] = at[k] < low[k] ? at[k] : low[k];
+            high[k] = at[k] > high[k] ? at[k] : high[k];
+        }
+    }
+    const int32_t steps = (high[1] - low[1]) / 24 + 1;
+    worst->faces++;
+    worst->affine_faces += !plane.perspective;
+    for (int32_t y = low[1]; y <= high[1]; y += steps) {
+        for (int32_t x = low[0]; x <= high[0]; x += tile) {
+            int32_t s[32], t[32];
+            texture_coordinates(&plane, x, y, tile, s, t);
+            for (int32_t i = 0; i < tile; i++) {
+                long double st[2];
+                if (!exact(c, x + i, y, perspective, st)) { continue; }
+                for (int k = 0; k < 2; k++) {
+                    const double off = (double)fabsl((k ? t : s)[i] / 65536.0L - st[k]);
+                    if (off > 0.5) {
+                        fail_msg("pixel %d,%d: %f for %Lf; corners %d,%d,%u,%d,%d %d,%d,%u,%d,%d %d,%d,%u,%d,%d", x + i, y,
+                                 (k ? t : s)[i] / 65536.0, st[k], c[0].x, c[0].y, c[0].depth, c[0].s, c[0].t, c[1].x, c[1].y,
+                                 c[1].depth, c[1].s, c[1].t, c[2].x, c[2].y, c[2].depth, c[2].s, c[2].t);
+                    }
+                    worst->all = fmax(worst->all, off);
+                    if (!plane.perspective) { worst->affine = fmax(worst->affine, off); }
+                }
+                worst->pixels++;
+            }
+        }
+    }
+}
+
+static void at_every_pixel_the_address_is_within_half_a_texel(void **state) {
+    random_source_t random = random_seed(42);
+    worst_t worst = {0};
+    (void)state;
+    for (unsigned round = 0; round < CHECK_ROUNDS(20000); round++) {
+        texture_corner_t c[3];
+        const int32_t size = 1 << random_between(&random, 3, 14), ratio = random_between(&random, 0, 7),
+                      span = 1 << random_between(&random, 4, 22);
+        const uint32_t nearest = 1u << random_between(&random, 16, 23);
+        for (int i = 0; i < 3; i++) {
+            c[i] = (texture_corner_t){random_between(&random, -size, size), random_between(&random, -size, size),
+                                      nearest - (uint32_t)random_between(&random, 0, (int32_t)(nearest - (nearest >> ratio))),
+                                      random_between(&random, -span, span), random_between(&random, -span, span)};
+        }
+        const int64_t area = (int64_t)(c[2].x - c[0].x) * (c[1].y - c[0].y) - (int64_t)(c[1].x - c[0].x) * (c[2].y - c[0].y);
+        if (area == 0) { continue; }
+        walk(c, round % 4 != 0, random_between(&random, 1, 32), &worst);
+    }
+    print_message("%u faces, %u of them affine, %u pixels: at most %.4f texel off, of affine faces %.4f\n", worst.faces,
+                  worst.affine_faces, worst.pixels, worst.all, worst.affine);
+    assert_true(worst.pixels > 1000);
+}
+
+/* ---- texels ---- */
+
+static const uint8_t palette_565[32] = {0x00, 0x00, 0x00, 0xf8, 0xe0, 0x07, 0x1f, 0x00, 0xff, 0xff};
+
+static void every_format_gives_its_colours(void **state) {
+    static const uint8_t rgb565[] = {0x00, 0xf8, 0xe0, 0x07, 0x1f, 0x00, 0x10, 0x84}; /* red, green, blue, (16, 32, 16) steps */
+    static const uint8_t argb4444[] = {0x23, 0x81, 0xff, 0x0f};                       /* 0x8123, 0x0fff */
+    static const uint8_t grey[] = {0, 127, 255};
+    static const uint8_t nibbles[] = {0x21, 0x04}; /* 1, 2, 4 */
+    const tuile_texture_t a = {.texels = rgb565, .width = 2, .height = 2, .levels = 1, .format = TUILE_TEXEL_RGB565};
+    const tuile_texture_t b = {.texels = argb4444, .width = 2, .height = 1, .levels = 1, .format = TUILE_TEXEL_ARGB4444};
+    const tuile_texture_t c = {.texels = grey, .width = 3, .height = 1, .levels = 1, .format = TUILE_TEXEL_GREY8};
+    const tuile_texture_t d = {
+        .texels = nibbles, .palette = palette_565, .width = 3, .height = 1, .levels = 1, .format = TUILE_TEXEL_PALETTE4};
+    (void)state;
+    assert_int_equal(texture_texel(&a, 0, 0), 0xffff0000);
+    assert_int_equal(texture_texel(&a, 1, 0), 0xff00ff00);
+    assert_int_equal(texture_texel(&a, 0, 1), 0xff0000ff);
+    assert_int_equal(texture_texel(&a, 1, 1), 0xff848284); /* 16 * 255 / 31 = 131.6, 32 * 255 / 63 = 129.5 */
+    assert_int_equal(texture_texel(&b, 0, 0), 0x88112233);
+    assert_int_equal(texture_texel(&b, 1, 0), 0x00ffffff);
+    assert_int_equal(texture_texel(&c, 1, 0), 0xff7f7f7f);
+    assert_int_equal(texture_texel(&d, 0, 0), 0xffff0000);
+    assert_int_equal(texture_texel(&d, 1, 0), 0xff00ff00);
+    assert_int_equal(texture_texel(&d, 2, 0), 0xffffffff);
+}
+
+static void textures_repeat_or_end_at_their_border(void **state) {
+    static const uint8_t grey[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+    tuile_texture_t texture = {.texels = grey, .width = 4, .height = 3, .levels = 1, .format = TUILE_TEXEL_GREY8};
+    (void)state;
+    assert_int_equal(texture_texel(&texture, -1, 0) & 255, 3);
+    assert_int_equal(texture_texel(&texture, 5, -1) & 255, 9);
+    assert_int_equal(texture_texel(&texture, INT32_MIN, INT32_MIN) & 255, 4); /* -2^31 = 1 (mod 3) */
+    assert_int_equal(texture_texel(&texture, INT32_MAX, INT32_MAX) & 255, 7); /* 2^31 - 1 = 3 (mod 4), 1 (mod 3) */
+    texture.flags = TUILE_TEXTURE_CLAMP_S;
+    assert_int_equal(texture_texel(&texture, -1, 4) & 255, 4);
+    assert_int_equal(texture_texel(&texture, 100, 4) & 255, 7);
+    texture.flags = TUILE_TEXTURE_CLAMP_T;
+    assert_int_equal(texture_texel(&texture, 5, INT32_MIN) & 255, 1);
+    assert_int_equal(texture_texel(&texture, 5, INT32_MAX) & 255, 9);
+}
+
+static void a_texel_that_is_the_key_is_not_there(void **state) {
+    static const uint8_t indices[] = {3, 1};
+    const tuile_texture_t texture = {.texels = indices,
+                                     .palette = palette_565,
+                                     .width = 2,
+                                     .height = 1,
+                                     .levels = 1,
+                                     .format = TUILE_TEXEL_PALETTE8,
+                                     .flags = TUILE_TEXTURE_KEY,
+                                     .key = 3};
+    (void)state;
+    assert_int_equal(texture_texel(&texture, 0, 0), 0);
+    assert_int_equal(texture_texel(&texture, 1, 0), 0xffff0000);
+}
+
+static void levels_lie_behind_one_another(void **state) {
+    static const uint8_t texels[22] = {0};
+    const tuile_texture_t texture = {.texels = texels, .width = 5, .height = 3, .levels = 3, .format = TUILE_TEXEL_GREY8};
+    const texture_level_t one = texture_level(&texture, 1), two = texture_level(&texture, 2);
+    (void)state;
+    assert_ptr_equal(one.texels, texels + 16); /* 15 bytes, and one to be even */
+    assert_int_equal(one.width, 2);
+    assert_int_equal(one.height, 1);
+    assert_ptr_equal(two.texels, texels + 18);
+    assert_int_equal(two.width, 1);
+    assert_int_equal(two.height, 1);
+}
+
+/* A plane whose coordinates do not matter. */
+static texture_plane_t plane_of(const tuile_texture_t *texture, bool bilinear) {
+    return (texture_plane_t){.texture = *texture, .level = texture_level(texture, 0), .bilinear = bilinear};
+}
+
+static void between_the_centres_of_texels_colours_are_mixed(void **state) {
+    static const uint8_t grey[] = {0, 100, 200, 40};
+    const tuile_texture_t texture = {.texels = grey, .width = 2, .height = 2, .levels = 1, .format = TUILE_TEXEL_GREY8};
+    const texture_plane_t plane = plane_of(&texture, true);
+    const int32_t s[] = {0x8000, 0x10000, 0x18000, 0x8000, 0x10000, 0}, t[] = {0x8000, 0x8000, 0x8000, 0x10000, 0x10000, 0x8000};
+    const uint32_t expected[] = {0, 50, 100, 100, 85, 50}; /* (0 + 100 + 200 + 40) / 4; half of the left one and of the right one */
+    uint32_t argb[6];
+    (void)state;
+    texture_fetch(&plane, &plane.level, 0, s, t, 6, argb);
+    for (unsigned i = 0; i < 6; i++) {
+        assert_int_equal(argb[i], 0xff000000u | expected[i] * 0x010101u);
+    }
+}
+
+static void beside_a_texel_that_is_not_there_the_other_one_fades(void **state) {
+    static const uint8_t grey[] = {9, 200};
+    const tuile_texture_t texture = {
+        .texels = grey, .width = 2, .height = 1, .levels = 1, .format = TUILE_TEXEL_GREY8, .flags = TUILE_TEXTURE_KEY, .key = 9};
+    const texture_plane_t plane = plane_of(&texture, true);
+    const int32_t s[] = {0x10000}, t[] = {0x8000};
+    uint32_t argb[1];
+    (void)state;
+    texture_fetch(&plane, &plane.level, 0, s, t, 1, argb);
+    assert_int_equal(argb[0], 0x80c8c8c8);
+}
+
+static void texels_of_odd_levels_cover_the_whole_texture(void **state) {
+    static const uint8_t grey[] = {0, 0, 0, 0, 0, 0, 11, 22}; /* 5x1, a byte, 2x1 */
+    const tuile_texture_t texture = {.texels = grey, .width = 5, .height = 1, .levels = 2, .format = TUILE_TEXEL_GREY8};
+    const texture_plane_t plane = plane_of(&texture, false);
+    const texture_level_t one = texture_level(&texture, 1);
+    const int32_t s[] = {0, 0x27fff, 0x28000, 0x4ffff, 0x50000, -1}, t[] = {0, 0, 0, 0, 0, 0};
+    const uint32_t expected[] = {11, 11, 22, 22, 11, 22};
+    uint32_t argb[6];
+    (void)state;
+    texture_fetch(&plane, &one, 1, s, t, 6, argb);
+    for (unsigned i = 0; i < 6; i++) {
+        assert_int_equal(argb[i] & 255, expected[i]);
+    }
+}
+
+static void a_pixel_is_drawn_from_the_level_whose_texels_are_its_size(void **state) {
+    tuile_texture_t texture = {.texels = (const uint8_t *)"", .width = 64, .height = 64, .levels = 7};
+    (void)state;
+    for (int level = -1; level < 8; level++) { /* 16 pixels that are 16 * 2^level texels */
+        const int32_t size = level < 0 ? 8 * 256 : (16 << level) * 256;
+        const texture_corner_t c[3] = {{0, 0, 1 << 20, 0, 0}, {0, 256, 1 << 20, 0, size}, {256, 0, 1 << 20, size, 0}};
+        texture_plane_t plane;
+        texture_plane_make(&plane, &texture, c, (texture_wish_t){.mips = true, .perspective = true});
+        assert_int_equal(plane.level_number, level < 0 ? 0 : level > 6 ? 6 : level);
+        texture_plane_make(&plane, &texture, c, (texture_wish_t){.mips = false});
+        assert_int_equal(plane.level_number, 0);
+    }
+}
+
+/* A floor: 64 pixels wide at the near end, 16 at the far one, four times as far away; the texture's side 64 texels all the way. */
+static void in_perspective_the_level_follows_the_distance(void **state) {
+    tuile_texture_t texture = {.texels = (const uint8_t *)"", .width = 64, .height = 64, .levels = 7};
+    const texture_corner_t c[3] = {
+        {0, 0, 1 << 22, 0, 0}, {1024, 0, 1 << 22, 64 * 256, 0}, {512, -256, 1 << 20, 32 * 256, 64 * 256}};
+    texture_plane_t plane;
+    (void)state;
+    texture_plane_make(&plane, &texture, c, (texture_wish_t){.mips = true, .perspective = true});
+    assert_true(plane.perspective);
+    const unsigned near = texture_level_at(&plane, 32, -1), far = texture_level_at(&plane, 32, -15);
+    assert_true(near < far);
+    for (int32_t y = -15; y < -1; y++) {
+        assert_true(texture_level_at(&plane, 32, y) >= texture_level_at(&plane, 32, y + 1));
+        assert_int_equal(texture_level_at(&plane, 32, y), texture_level_at(&plane, 47, y));
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(at_every_pixel_the_address_is_within_half_a_texel),
+        cmocka_unit_test(every_format_gives_its_colours),
+        cmocka_unit_test(textures_repeat_or_end_at_their_border),
+        cmocka_unit_test(a_texel_that_is_the_key_is_not_there),
+        cmocka_unit_test(levels_lie_behind_one_another),
+        cmocka_unit_test(between_the_centres_of_texels_colours_are_mixed),
+        cmocka_unit_test(beside_a_texel_that_is_not_there_the_other_one_fades),
+        cmocka_unit_test(texels_of_odd_levels_cover_the_whole_texture),
+        cmocka_unit_test(a_pixel_is_drawn_from_the_level_whose_texels_are_its_size),
+        cmocka_unit_test(in_perspective_the_level_follows_the_distance),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
