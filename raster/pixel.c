@@ -30,7 +30,8 @@ uint32_t pixel_pack(pixel_kind_t kind, uint32_t rgb) {
     switch (kind) {
     case PIXEL_RGB444: return steps(red, 15) << 8 | steps(green, 15) << 4 | steps(blue, 15);
     case PIXEL_RGB332: return steps(red, 7) << 5 | steps(green, 7) << 2 | steps(blue, 3);
-    case PIXEL_LUMA16: return ((red * 13933u + green * 46871u + blue * 4732u) / 256u * 257u) >> 8;
+    case PIXEL_LUMA16:
+        return ((red * 13933u + green * 46871u + blue * 4732u) * 257u + 32768u) >> 16; /* 255 * 2^16 * 257 + 2^15 < 2^32 */
     case PIXEL_RGB888:
     case PIXEL_IDS: return rgb;
     default: break;

@@ -1,5 +1,5 @@
 /* How a colour stands in a tile while it is drawn. Tiles whose samples are the wire's own bytes are drawn in them; all others are
- * resolved (frame/resolve.c). */
+ * resolved (resolve/resolve.h). */
 #ifndef TUILE_PIXEL_H
 #define TUILE_PIXEL_H
 

@@ -440,6 +440,17 @@ typedef struct tuile_config {
  * all faces of one tile at once: without it tuile_next returns TUILE_ERROR_MEMORY. */
 #define TUILE_LEAST_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices) \
     (TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers) + 8u * (cluster_vertices) + TUILE_CLIP_BYTES)
+/* The same with effects (tuile_effects_t, or-ed), anti-aliasing (tuile_aa_t) and dithering. Colours that are kept whole are shaded as
+ * with TUILE_SURFACES. */
+#define TUILE_DEFERS(format, effects, dither) \
+    ((effects) != 0 || ((format) != TUILE_FACE_IDS && TUILE_SAMPLE_BYTES(format, dither) == 4u))
+#define TUILE_BLOCK_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices, effects, aa, dither)          \
+    (TUILE_LEAST_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices) +                                \
+     TUILE_DEPTH_EXTRA_BYTES(tile_w, tile_h, 1u << (aa)) +                                                         \
+     TUILE_WORKING_BYTES(tile_w, tile_h, format, 1u << (aa), dither) +                                             \
+     (TUILE_DEFERS(format, effects, dither)                                                                        \
+          ? TUILE_NUMBER_BYTES(tile_w, tile_h, 1u << (aa)) + TUILE_SURFACE_BYTES(cluster_vertices)                 \
+          : (size_t)0))
 
 typedef struct tuile tuile_t;
 
@@ -461,7 +472,8 @@ int tuile_begin(tuile_t *renderer, const tuile_scene_t *scene);
 
 typedef struct tuile_tile {
     uint16_t x, y, width, height; /* rectangle in the window, cut to it */
-    const uint8_t *bytes;         /* width * height pixels, row by row without gaps, in wire order */
+    const uint8_t *bytes;         /* width * height pixels, row by row without gaps, in wire order. GREY4 and MONO_ROWS: rows begin on
+                                     whole bytes, MONO_PAGES: pages of 8 rows follow one another; bits beyond the tile are 0 */
     uint32_t size_bytes;
 } tuile_tile_t;
 

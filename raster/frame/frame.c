@@ -1,6 +1,7 @@
 /* A frame: the block laid out, one tile after the other. How a tile comes by its faces is pass.c's. */
 #include "frame.h"
 
+#include "../features.h"
 #include "../memory.h"
 
 const char *tuile_error_text(int error) {
@@ -76,6 +77,7 @@ static bool config_complete(tuile_config_t *c, size_t size_bytes) {
         c->warnock > 31 || c->aa > TUILE_AA_4X4 || c->effects > 3 || c->edges > TUILE_EDGES_OUTLINE || c->texturing > 15 ||
         c->width << c->aa > TUILE_SAMPLES_MAX || c->height << c->aa > TUILE_SAMPLES_MAX ||
         (c->edges != TUILE_EDGES_NONE && !(c->effects & TUILE_LAYERS)) ||
+        (!TUILE_HAS(RESOLVE) && TUILE_RESOLVES(c->format, 1u << c->aa, c->dither)) ||
         (c->format == TUILE_FACE_IDS && (c->aa || c->dither || c->effects || c->overlay))) {
         return false;
     }
@@ -116,15 +118,13 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     if (!config_complete(&c, size_bytes)) { return TUILE_ERROR_ARGUMENT; }
     const tuile_config_t given = c;
     const visibility_method_t *method = method_of(c.method);
-    const size_t pixels = (size_t)c.tile_width * c.tile_height;
     const size_t working_bytes = TUILE_WORKING_BYTES(c.tile_width, c.tile_height, c.format, 1u << c.aa, c.dither);
     const size_t number_bytes = c.effects ? TUILE_NUMBER_BYTES(c.tile_width, c.tile_height, 1u << c.aa) : 0;
     config_sample(&c);
     const size_t tile_bytes = TUILE_ALIGN64(method->tile_bytes ? method->tile_bytes(&c) : 0);
-    const size_t least = TUILE_LEAST_BYTES((size_t)given.height, (size_t)given.tile_width, (size_t)given.tile_height, c.format,
-                                           (size_t)c.buffers, (size_t)c.cluster_vertices) -
-                         TUILE_ALIGN64(2u * pixels) + tile_bytes + TUILE_CORNERS_BYTES(c.corners) + working_bytes + number_bytes +
-                         (c.effects ? TUILE_SURFACE_BYTES(c.cluster_vertices) : 0) +
+    const size_t least = TUILE_BLOCK_BYTES((size_t)given.height, (size_t)given.tile_width, (size_t)given.tile_height, c.format,
+                                           (size_t)c.buffers, (size_t)c.cluster_vertices, c.effects, c.aa, c.dither) -
+                         TUILE_ALIGN64(2u * (size_t)c.tile_width * c.tile_height) + tile_bytes + TUILE_CORNERS_BYTES(c.corners) +
                          /* the stack, the order of up to four instances, the tag of a ramp */
                          (c.method == TUILE_TREE ? TUILE_ALIGN8(4u * (size_t)c.tree_depth) + 8 + 8 : 0);
     if (wanted_bytes) { *wanted_bytes = least; }
@@ -272,7 +272,7 @@ int tuile_next(tuile_t *t, tuile_tile_t *tile) {
         tile->height = (uint16_t)((t->tile.bottom - t->tile.top) >> t->samples);
         tile->bytes = t->colours[t->next_buffer];
         tile->size_bytes = (uint32_t)TUILE_WIRE_BYTES(t->config.format, tile->width, tile->height);
-        if (t->working) { resolve_tile(t); }
+        if (TUILE_HAS(RESOLVE) && t->working) { resolve_tile(t); }
         t->next_buffer = (uint8_t)((t->next_buffer + 1) % t->config.buffers);
         t->next_tile += t->config.tile_step;
         t->stats.tiles++;

@@ -310,7 +310,7 @@ void shade_tile(tuile_t *t);
 /* Takes the place of draw_now: the face by the method, and at once into the samples. */
 void shade_now(tuile_t *t, uint32_t number);
 
-/* ---- resolve.c: samples to wire bytes ---- */
+/* ---- resolve/resolve.c: samples to wire bytes ---- */
 
 /* The tile, whose samples are in t->working, to t->colours[t->next_buffer]. */
 void resolve_tile(const tuile_t *t);

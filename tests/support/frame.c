@@ -22,20 +22,59 @@ void block_close(block_t *block) {
     free(block->memory);
 }
 
-void frame_paste(uint8_t *picture, const tuile_config_t *config, const tuile_tile_t *tile) {
-    const size_t pixel = TUILE_WIRE_BYTES(config->format, 1u, 1u);
-    assert_int_equal(tile->size_bytes, pixel * tile->width * tile->height);
-    assert_in_range(tile->x + tile->width, 1, config->width);
-    assert_in_range(tile->y + tile->height, 1, config->height);
-    for (unsigned y = 0; y < tile->height; y++) {
-        memcpy(picture + pixel * ((size_t)(tile->y + y) * config->width + tile->x), tile->bytes + pixel * y * tile->width,
-               pixel * tile->width);
+/* Bytes of a pixel in a picture: formats that pack pixels have one number of one or two bytes for each. */
+static size_t pixel_bytes_of(uint8_t format) {
+    switch (format) {
+    case TUILE_FACE_IDS: return 4;
+    case TUILE_RGB666: return 3;
+    case TUILE_RGB332:
+    case TUILE_GREY8:
+    case TUILE_GREY4:
+    case TUILE_MONO_PAGES:
+    case TUILE_MONO_ROWS: return 1;
+    default: return 2;
     }
 }
 
-size_t frame_bytes(const tuile_config_t *config) {
-    return (size_t)TUILE_WIRE_BYTES(config->format, 1u, 1u) * config->width * config->height;
+static size_t tile_bytes_of(uint8_t format, size_t width, size_t height) {
+    switch (format) {
+    case TUILE_RGB444: return (width * height * 12 + 7) / 8;
+    case TUILE_GREY4: return (width * 4 + 7) / 8 * height;
+    case TUILE_MONO_PAGES: return width * ((height + 7) / 8);
+    case TUILE_MONO_ROWS: return (width + 7) / 8 * height;
+    default: return width * height * pixel_bytes_of(format);
+    }
 }
+
+/* Pixel (x, y) of a tile, as it stands in a picture. */
+static void unpack(uint8_t *to, uint8_t format, const tuile_tile_t *tile, size_t x, size_t y) {
+    const size_t width = tile->width, index = y * width + x;
+    const uint8_t *bytes = tile->bytes;
+    switch (format) {
+    case TUILE_RGB444:
+        to[0] = (uint8_t)(index % 2 ? bytes[index / 2 * 3 + 2] : bytes[index / 2 * 3] << 4 | bytes[index / 2 * 3 + 1] >> 4);
+        to[1] = index % 2 ? bytes[index / 2 * 3 + 1] & 15 : bytes[index / 2 * 3] >> 4;
+        break;
+    case TUILE_GREY4: to[0] = bytes[y * ((width + 1) / 2) + x / 2] >> (x % 2 ? 0 : 4) & 15; break;
+    case TUILE_MONO_PAGES: to[0] = bytes[y / 8 * width + x] >> y % 8 & 1; break;
+    case TUILE_MONO_ROWS: to[0] = bytes[y * ((width + 7) / 8) + x / 8] >> (7 - x % 8) & 1; break;
+    default: memcpy(to, bytes + index * pixel_bytes_of(format), pixel_bytes_of(format)); break;
+    }
+}
+
+void frame_paste(uint8_t *picture, const tuile_config_t *config, const tuile_tile_t *tile) {
+    const size_t pixel = pixel_bytes_of(config->format);
+    assert_int_equal(tile->size_bytes, tile_bytes_of(config->format, tile->width, tile->height));
+    assert_in_range(tile->x + tile->width, 1, config->width);
+    assert_in_range(tile->y + tile->height, 1, config->height);
+    for (unsigned y = 0; y < tile->height; y++) {
+        for (unsigned x = 0; x < tile->width; x++) {
+            unpack(picture + pixel * ((size_t)(tile->y + y) * config->width + tile->x + x), config->format, tile, x, y);
+        }
+    }
+}
+
+size_t frame_bytes(const tuile_config_t *config) { return pixel_bytes_of(config->format) * config->width * config->height; }
 
 uint8_t *frame_blank(const tuile_config_t *config) {
     uint8_t *picture = malloc(frame_bytes(config));

@@ -1,0 +1,40 @@
+/* A tile, run by run. */
+#include "resolve.h"
+
+#include "../frame/frame.h"
+
+/* B. E. Bayer, An optimum method for two-level rendition of continuous-tone pictures, 1973: each matrix is made of four of half the
+ * size, 4 m + {0, 2; 3, 1}, so the lowest bits of x and y, which tell neighbours apart, weigh most. */
+unsigned resolve_bayer(uint32_t x, uint32_t y) {
+    unsigned value = 0;
+    for (unsigned bit = 0; bit < 3; bit++) {
+        value = 4u * value + 2u * ((x ^ y) >> bit & 1u) + (y >> bit & 1u);
+    }
+    return value;
+}
+
+static void thresholds_make(resolve_run_t *run, bool dither, uint32_t x, uint32_t y) {
+    for (uint32_t i = 0; i < RESOLVE_MATRIX; i++) {
+        run->thresholds[i] = (dither ? 2u * resolve_bayer(x + i, y) + 1u : 64u) << 2u * run->shift;
+    }
+}
+
+void resolve_tile(const tuile_t *t) {
+    const pixel_kind_t kind = (pixel_kind_t)t->pixel_kind;
+    const resolve_way_t way = kind == PIXEL_LUMA16 ? resolve_grey(t->config.format) : resolve_colour(kind, t->config.format);
+    const size_t stride = (size_t)t->tile.stride_px;
+    const uint8_t *row = t->working;
+    resolve_run_t run;
+    run.shift = t->samples;
+    run.width = (uint32_t)t->tile.stride_px >> run.shift;
+    const uint32_t left = (uint32_t)t->tile.left >> run.shift, top = (uint32_t)t->tile.top >> run.shift;
+    const uint32_t height = ((uint32_t)t->tile.bottom >> run.shift) - top;
+    for (run.y = 0; run.y < height; run.y++, row += (stride << run.shift) * pixel_bytes(kind)) {
+        thresholds_make(&run, t->given.dither, left, top + run.y);
+        for (run.x = 0; run.x < run.width; run.x += RESOLVE_RUN) {
+            run.count = run.width - run.x < RESOLVE_RUN ? run.width - run.x : RESOLVE_RUN;
+            way.sum(row + ((size_t)run.x << run.shift) * pixel_bytes(kind), stride, &run);
+            way.put(&run, t->colours[t->next_buffer]);
+        }
+    }
+}
