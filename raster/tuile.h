@@ -103,6 +103,7 @@ typedef enum tuile_material_flags {
     TUILE_MATERIAL_TWO_SIDED = 1, /* back faces are seen too, lit as front faces */
     TUILE_MATERIAL_BILINEAR = 2,  /* texels are interpolated, else the nearest one is taken */
     TUILE_MATERIAL_UNLIT = 4,     /* colour and texture as they are */
+    TUILE_MATERIAL_VERTEX_COLOURS = 8, /* the vertex colours of the model take the place of `colour`, which is their mean */
 } tuile_material_flags_t;
 
 #define TUILE_NO_TEXTURE 255u

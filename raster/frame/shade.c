@@ -84,6 +84,9 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
     } else {
         face->material.texture = TUILE_NO_TEXTURE;
     }
+    if (instance->model->colours != NULL && (face->material.flags & TUILE_MATERIAL_VERTEX_COLOURS)) {
+        face->material.colour[0] = face->material.colour[1] = face->material.colour[2] = 255;
+    }
     face->coloured = source->colours != 0 || source->is_coloured;
     /* A polygon that is in one light all over, or that is not convex. */
     face->flat = t->config.shade == TUILE_FLAT || (!triangle && !face->coloured);

@@ -59,9 +59,11 @@ static bool check_texture(const tuile_model_t *model, const uint8_t *at) {
 }
 
 static bool check_material(const tuile_model_t *model, const uint8_t *at) {
-    const unsigned flags = TUILE_MATERIAL_TWO_SIDED | TUILE_MATERIAL_BILINEAR | TUILE_MATERIAL_UNLIT;
+    const unsigned flags =
+        TUILE_MATERIAL_TWO_SIDED | TUILE_MATERIAL_BILINEAR | TUILE_MATERIAL_UNLIT | TUILE_MATERIAL_VERTEX_COLOURS;
     const unsigned texture = at[MATERIAL_AT_TEXTURE];
     if (texture != TUILE_NO_TEXTURE && (texture >= model->texture_count || !model->texcoords)) { return false; }
+    if ((at[MATERIAL_AT_FLAGS] & TUILE_MATERIAL_VERTEX_COLOURS) != 0 && !model->colours) { return false; }
     return at[MATERIAL_AT_SHININESS] <= MODEL_SHININESS_MAX && at[MATERIAL_AT_BLEND] <= TUILE_BLEND_MULTIPLY &&
            (at[MATERIAL_AT_FLAGS] & ~flags) == 0 && at[MATERIAL_AT_UV_BITS] <= MODEL_UV_BITS_MAX && at[MATERIAL_AT_ZERO] == 0 &&
            at[MATERIAL_AT_ZERO + 1] == 0 && at[MATERIAL_AT_ZERO + 2] == 0;

@@ -29,12 +29,17 @@
 /* Badoiu and Clarkson: walk towards the furthest point by ever smaller parts; the radius ends near the least one. */
 #define WALK_STEPS 128
 
+/* Point i of those that a sphere has to hold: positions of the first key frame, then, if there is one, of the second. */
+static const int16_t *point_of(const solid_t *solid, const uint32_t *vertices, size_t count, size_t i) {
+    return i < count ? solid->vertices[vertices[i]].position : solid->vertices[vertices[i - count]].morph;
+}
+
 static uint32_t radius_around(const solid_t *solid, const uint32_t *vertices, size_t count, const int16_t centre[3]) {
     int64_t most = 0; /* 3 * (2^16)^2 < 2^34 */
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < (solid->morphs ? 2 * count : count); i++) {
         int64_t squares = 0;
         for (int k = 0; k < 3; k++) {
-            int64_t off = solid->vertices[vertices[i]].position[k] - centre[k];
+            int64_t off = point_of(solid, vertices, count, i)[k] - centre[k];
             squares += off * off;
         }
         most = squares > most ? squares : most;
@@ -50,12 +55,13 @@ static uint32_t radius_around(const solid_t *solid, const uint32_t *vertices, si
 }
 
 bounds_sphere_t bounds_of_vertices(const solid_t *solid, const uint32_t *vertices, size_t count) {
+    const size_t points = solid->morphs ? 2 * count : count;
     double centre[3], low[3], high[3];
     for (int k = 0; k < 3; k++) {
         low[k] = high[k] = solid->vertices[vertices[0]].position[k];
-        for (size_t i = 1; i < count; i++) {
-            low[k] = fmin(low[k], solid->vertices[vertices[i]].position[k]);
-            high[k] = fmax(high[k], solid->vertices[vertices[i]].position[k]);
+        for (size_t i = 1; i < points; i++) {
+            low[k] = fmin(low[k], point_of(solid, vertices, count, i)[k]);
+            high[k] = fmax(high[k], point_of(solid, vertices, count, i)[k]);
         }
         centre[k] = (low[k] + high[k]) / 2;
     }
@@ -73,22 +79,24 @@ bounds_sphere_t bounds_of_vertices(const solid_t *solid, const uint32_t *vertice
         }
         double furthest = -1;
         const int16_t *to = solid->vertices[vertices[0]].position;
-        for (size_t i = 0; i < count; i++) {
+        for (size_t i = 0; i < points; i++) {
+            const int16_t *point = point_of(solid, vertices, count, i);
             double squares = 0;
             for (int k = 0; k < 3; k++) {
-                double off = solid->vertices[vertices[i]].position[k] - centre[k];
+                double off = point[k] - centre[k];
                 squares += off * off;
             }
             if (squares > furthest) {
                 furthest = squares;
-                to = solid->vertices[vertices[i]].position;
+                to = point;
             }
         }
         for (int k = 0; k < 3; k++) {
             centre[k] += (to[k] - centre[k]) / (step + 2);
         }
     }
-    for (size_t i = 0; i < count; i++) { /* a fraction reaches less than one step further */
+    if (solid->morphs) { sphere.radius++; } /* between the key frames places are rounded */
+    for (size_t i = 0; i < count; i++) {    /* a fraction reaches less than one step further */
         const int8_t *f = solid->vertices[vertices[i]].fraction;
         if (f[0] | f[1] | f[2]) {
             sphere.radius++;
@@ -212,10 +220,28 @@ static void widest_axis(const normals_t *normals, double axis[3]) {
     }
 }
 
+/* Do all vertices of the faces go the same way to the second key frame? Only then do normals stay what they are in between: they
+ * are quadratic on the way, and lie in no cone around those of its two ends. A triangle in one plane may even turn over and back.
+ */
+static bool moves_as_one(const solid_t *solid, const uint32_t *faces, size_t count) {
+    const solid_vertex_t *first = &solid->vertices[solid->corners[solid->faces[faces[0]].first]];
+    for (size_t f = 0; solid->morphs && f < count; f++) {
+        const solid_face_t *face = &solid->faces[faces[f]];
+        for (uint32_t i = 0; i < face->count; i++) {
+            const solid_vertex_t *vertex = &solid->vertices[solid->corners[face->first + i]];
+            for (int k = 0; k < 3; k++) {
+                if (vertex->morph[k] - vertex->position[k] != first->morph[k] - first->position[k]) { return false; }
+            }
+        }
+    }
+    return true;
+}
+
 int bounds_of_normals(const solid_t *solid, const uint32_t *faces, size_t count, bounds_cone_t *cone) {
     normals_t normals = {0};
     double axis[3];
     *cone = (bounds_cone_t){{0, 0, 127}, 255};
+    if (!moves_as_one(solid, faces, count)) { return 0; }
     for (size_t i = 0; i < count; i++) {
         if (!add_face(&normals, solid, &solid->faces[faces[i]])) {
             free(normals.exact);

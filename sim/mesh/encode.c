@@ -14,6 +14,7 @@ typedef struct encoder {
     const solid_t *solid;
     const clusters_t *clusters;
     sheet_t positions, fractions, normals, table, faces, face_normals, materials, source, tree;
+    sheet_t texcoords, colours, textures, morph_positions, morph_normals, morph_face_normals;
     uint32_t *local;    /* of each vertex of the solid: its place in the cluster at hand */
     uint32_t *vertices; /* of the cluster at hand, at most 255 */
     size_t vertex_count, face_count, cluster_vertices_max, corners_max;
@@ -61,6 +62,9 @@ static void encode_face(encoder_t *e, const solid_face_t *face, bool triangles) 
     for (int k = 0; k < 3; k++) {
         put_signed(e, &e->face_normals, normal_byte(face->unit[k]), 1);
     }
+    for (int k = 0; e->solid->morphs && k < 3; k++) {
+        put_signed(e, &e->morph_face_normals, normal_byte(face->morph_unit[k]), 1);
+    }
     e->corners_max = face->count > e->corners_max ? face->count : e->corners_max;
 }
 
@@ -78,6 +82,25 @@ static size_t number_vertices(encoder_t *e, const uint32_t *faces, size_t count)
         }
     }
     return used;
+}
+
+static void encode_vertex(encoder_t *e, const solid_vertex_t *vertex) {
+    for (int i = 0; i < 3; i++) {
+        put_signed(e, &e->positions, vertex->position[i], 2);
+        put_signed(e, &e->normals, vertex->normal[i], 1);
+        put_signed(e, &e->fractions, vertex->fraction[i], 1);
+        e->any_fraction = e->any_fraction || vertex->fraction[i];
+    }
+    for (int i = 0; e->solid->textured && i < 2; i++) {
+        put_signed(e, &e->texcoords, vertex->texcoord[i], 2);
+    }
+    for (int i = 0; e->solid->coloured && i < 4; i++) {
+        put(e, &e->colours, vertex->colour[i], 1);
+    }
+    for (int i = 0; e->solid->morphs && i < 3; i++) {
+        put_signed(e, &e->morph_positions, vertex->morph[i], 2);
+        put_signed(e, &e->morph_normals, vertex->morph_normal[i], 1);
+    }
 }
 
 static void encode_cluster(encoder_t *e, size_t k) {
@@ -108,12 +131,7 @@ static void encode_cluster(encoder_t *e, size_t k) {
     put(e, &e->table, vertices, 1);
     put(e, &e->table, triangles ? MODEL_CLUSTER_TRIANGLES : MODEL_CLUSTER_POLYGONS, 1);
     for (size_t v = 0; v < vertices; v++) {
-        for (int i = 0; i < 3; i++) {
-            put_signed(e, &e->positions, e->solid->vertices[e->vertices[v]].position[i], 2);
-            put_signed(e, &e->normals, e->solid->vertices[e->vertices[v]].normal[i], 1);
-            put_signed(e, &e->fractions, e->solid->vertices[e->vertices[v]].fraction[i], 1);
-            e->any_fraction = e->any_fraction || e->solid->vertices[e->vertices[v]].fraction[i];
-        }
+        encode_vertex(e, &e->solid->vertices[e->vertices[v]]);
     }
     for (size_t f = 0; f < count; f++) {
         encode_face(e, &e->solid->faces[faces[f]], triangles);
@@ -171,19 +189,39 @@ static void write_u32(uint8_t *p, uint32_t value) {
     write_u16(p + 2, value >> 16);
 }
 
-/* The least and greatest coordinates of all positions. */
-static void write_box(const sheet_t *positions, uint8_t *low, uint8_t *high) {
+/* The least and greatest coordinates of all positions, of both key frames. */
+static void write_box(const encoder_t *e, uint8_t *low, uint8_t *high) {
     int32_t least[3] = {INT16_MAX, INT16_MAX, INT16_MAX}, most[3] = {INT16_MIN, INT16_MIN, INT16_MIN};
-    for (size_t at = 0; at < positions->size; at += 2) {
-        const size_t axis = at / 2 % 3;
-        const int32_t value = model_i16(positions->bytes + at);
-        least[axis] = value < least[axis] ? value : least[axis];
-        most[axis] = value > most[axis] ? value : most[axis];
+    const sheet_t *const frames[2] = {&e->positions, &e->morph_positions};
+    for (int frame = 0; frame < 2; frame++) {
+        for (size_t at = 0; at < frames[frame]->size; at += 2) {
+            const size_t axis = at / 2 % 3;
+            const int32_t value = model_i16(frames[frame]->bytes + at);
+            least[axis] = value < least[axis] ? value : least[axis];
+            most[axis] = value > most[axis] ? value : most[axis];
+        }
     }
     for (size_t axis = 0; axis < 3; axis++) {
         write_u16(low + 2 * axis, (uint32_t)least[axis]);
         write_u16(high + 2 * axis, (uint32_t)most[axis]);
     }
+}
+
+/* Sections of their own for texels and palettes, and the table that tells where they lie. */
+static uint32_t place_textures(encoder_t *e, sheet_t *out, const mesh_t *mesh) {
+    for (size_t t = 0; t < mesh->texture_count; t++) {
+        const mesh_texture_t *from = &mesh->textures[t];
+        sheet_t texels = {from->texels, from->size_bytes, 0}, palette = {from->palette, from->palette_bytes, 0};
+        put(e, &e->textures, place(out, e, &texels), 4);
+        put(e, &e->textures, place(out, e, &palette), 4);
+        put(e, &e->textures, from->width, 2);
+        put(e, &e->textures, from->height, 2);
+        put(e, &e->textures, from->format, 1);
+        put(e, &e->textures, from->levels, 1);
+        put(e, &e->textures, from->flags, 2);
+        put(e, &e->textures, from->key, 4);
+    }
+    return place(out, e, &e->textures);
 }
 
 static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32, const tree_section_t *tree) {
@@ -201,6 +239,12 @@ static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32
     at[6] = place(out, e, &e->source);
     at[7] = place(out, e, &e->tree);
     at[8] = place(out, e, &e->fractions);
+    const uint32_t extra[6][2] = {{MODEL_AT_TEXCOORDS, place(out, e, &e->texcoords)},
+                                  {MODEL_AT_COLOURS, place(out, e, &e->colours)},
+                                  {MODEL_AT_MORPH_POSITIONS, place(out, e, &e->morph_positions)},
+                                  {MODEL_AT_MORPH_NORMALS, place(out, e, &e->morph_normals)},
+                                  {MODEL_AT_MORPH_FACE_NORMALS, place(out, e, &e->morph_face_normals)},
+                                  {MODEL_AT_TEXTURES, place_textures(e, out, mesh)}};
     for (size_t v = 0; v < solid->vertex_count && v < UINT32_MAX; v++) {
         e->local[v] = (uint32_t)v;
     }
@@ -225,7 +269,7 @@ static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32
         write_u16(header + MODEL_AT_CENTRE + 2 * k, (uint32_t)sphere.centre[k]);
         write_u32(header + MODEL_AT_OFFSET + 4 * k, (uint32_t)solid->offset[k]);
     }
-    write_box(&e->positions, header + MODEL_AT_LOW, header + MODEL_AT_HIGH);
+    write_box(e, header + MODEL_AT_LOW, header + MODEL_AT_HIGH);
     write_u32(header + MODEL_AT_FRACTIONS, at[8]);
     write_u32(header + MODEL_AT_POSITIONS, at[0]);
     write_u32(header + MODEL_AT_NORMALS, at[1]);
@@ -238,6 +282,10 @@ static void finish(encoder_t *e, sheet_t *out, const mesh_t *mesh, bool source32
     write_u32(header + MODEL_AT_TREE, at[7]);
     write_u32(header + MODEL_AT_TREE_WORDS, tree ? (uint32_t)tree->count : 0);
     write_u16(header + MODEL_AT_TREE_DEPTH, tree ? (uint32_t)tree->depth : 0);
+    for (size_t i = 0; i < sizeof extra / sizeof extra[0]; i++) {
+        write_u32(header + extra[i][0], extra[i][1]);
+    }
+    write_u16(header + MODEL_AT_TEXTURE_COUNT, (uint32_t)mesh->texture_count);
     write_u32(header + MODEL_AT_CRC32, model_crc32(0, header + MODEL_AT_VERSION, out->size - MODEL_AT_VERSION));
 }
 
@@ -261,8 +309,9 @@ int solid_encode(const solid_t *solid, const clusters_t *clusters, const mesh_t 
         put(&e, &e.tree, tree->words[i], 4);
     }
     if (!e.failed) { finish(&e, &out, mesh, source32, tree); }
-    sheet_t *sections[] = {&e.positions,    &e.fractions, &e.normals, &e.table, &e.faces,
-                           &e.face_normals, &e.materials, &e.source,  &e.tree};
+    sheet_t *sections[] = {&e.positions,    &e.fractions, &e.normals,         &e.table,         &e.faces,
+                           &e.face_normals, &e.materials, &e.source,          &e.tree,          &e.texcoords,
+                           &e.colours,      &e.textures,  &e.morph_positions, &e.morph_normals, &e.morph_face_normals};
     for (size_t s = 0; s < sizeof sections / sizeof sections[0]; s++) {
         free(sections[s]->bytes);
     }

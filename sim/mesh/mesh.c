@@ -12,6 +12,17 @@ void mesh_free(mesh_t *mesh) {
     free(mesh->faces);
     free(mesh->materials);
     free(mesh->surfaces);
+    free(mesh->texcoords);
+    free(mesh->colours);
+    for (size_t t = 0; t < mesh->texture_count; t++) {
+        free(mesh->textures[t].name);
+        free(mesh->textures[t].texels);
+        free(mesh->textures[t].palette);
+    }
+    free(mesh->textures);
+    free(mesh->morph.positions);
+    free(mesh->morph.normals);
+    free(mesh->morph.corner_normals);
     memset(mesh, 0, sizeof *mesh);
 }
 
@@ -19,6 +30,12 @@ void mesh_free(mesh_t *mesh) {
 static int check(const mesh_t *mesh, sim_error_t *error) {
     if (mesh->material_count < 1 || mesh->material_count > MESH_MATERIALS_MAX) {
         return sim_fail(error, "the model has %zu materials; 1 to %u fit", mesh->material_count, MESH_MATERIALS_MAX);
+    }
+    for (size_t m = 0; mesh->surfaces && m < mesh->material_count; m++) {
+        if (mesh->surfaces[m].texture != TUILE_NO_TEXTURE &&
+            (mesh->surfaces[m].texture >= mesh->texture_count || !mesh->texcoords)) {
+            return sim_fail(error, "material %zu of the model has a texture that is not there", m);
+        }
     }
     for (size_t f = 0; f < mesh->face_count; f++) {
         const mesh_face_t *face = &mesh->faces[f];
@@ -30,6 +47,9 @@ static int check(const mesh_t *mesh, sim_error_t *error) {
     for (size_t c = 0; c < mesh->corner_count; c++) {
         if (mesh->corners[c] >= mesh->position_count || (mesh->normal_count && mesh->corner_normals[c] >= mesh->normal_count)) {
             return sim_fail(error, "corner %zu of the model refers to a vertex or normal that is not there", c);
+        }
+        if (mesh->texcoords && !(fabs(mesh->texcoords[c][0]) < 1e9 && fabs(mesh->texcoords[c][1]) < 1e9)) {
+            return sim_fail(error, "corner %zu of the model has a texture coordinate that is not finite or over 10^9 texels", c);
         }
         const double *at = mesh->positions[mesh->corners[c]];
         if (!isfinite(at[0]) || !isfinite(at[1]) || !isfinite(at[2])) {

@@ -21,6 +21,24 @@ typedef struct mesh_face {
     uint32_t source;   /* the importer's number of the face, 0-based */
 } mesh_face_t;
 
+/* A texture as geometry/model.h has it; heap memory owned by the mesh. */
+typedef struct mesh_texture {
+    char *name;       /* of the image file, as the model names it */
+    uint8_t *texels;  /* all levels */
+    uint8_t *palette; /* NULL: none */
+    size_t size_bytes, palette_bytes;
+    uint16_t width, height, key;
+    uint8_t format, levels, flags;
+} mesh_texture_t;
+
+/* A second key frame, of the same faces. */
+typedef struct mesh_morph {
+    double (*positions)[3]; /* of each position of the mesh; NULL: there is no second key frame */
+    double (*normals)[3];
+    size_t normal_count;
+    uint32_t *corner_normals;
+} mesh_morph_t;
+
 typedef struct mesh {
     double (*positions)[3];
     size_t position_count;
@@ -28,12 +46,17 @@ typedef struct mesh {
     size_t normal_count;
     uint32_t *corners;        /* index of each corner's position */
     uint32_t *corner_normals; /* index of each corner's normal; NULL when normal_count is 0 */
+    double (*texcoords)[2];   /* of each corner: s, t in texels of its face's texture, t downwards; NULL: none */
+    uint8_t (*colours)[4];    /* of each corner: red, green, blue, alpha; NULL: none */
     size_t corner_count;
     mesh_face_t *faces;
     size_t face_count;
     uint8_t (*materials)[3];    /* red, green, blue; at least one */
     tuile_material_t *surfaces; /* all of each material but its colour; NULL: opaque, lit, without a texture */
     size_t material_count;
+    mesh_texture_t *textures;
+    size_t texture_count;
+    mesh_morph_t morph;
     size_t source_face_count; /* faces that the importer delivered, skipped ones included */
     size_t skipped_count;     /* degenerate ones among them */
     size_t loose_count;       /* points and lines in the file: no faces, left out and not numbered */

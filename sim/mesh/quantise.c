@@ -36,19 +36,24 @@ static int lowest_bit(double x) {
     return exponent;
 }
 
+static void measure_point(extent_t *extent, const double at[3]) {
+    for (int k = 0; k < 3; k++) {
+        extent->low[k] = fmin(extent->low[k], at[k]);
+        extent->high[k] = fmax(extent->high[k], at[k]);
+        if (at[k] != 0 && isfinite(at[k])) {
+            int bit = lowest_bit(at[k]);
+            extent->finest = bit < extent->finest ? bit : extent->finest;
+        }
+    }
+}
+
 static extent_t measure(const mesh_t *mesh) {
     extent_t extent = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}, .finest = INT32_MAX};
     for (size_t f = 0; f < mesh->face_count; f++) {
         for (uint32_t i = 0; i < mesh->faces[f].count; i++) { /* not all positions: some may belong to no face */
-            const double *at = mesh->positions[mesh->corners[mesh->faces[f].first + i]];
-            for (int k = 0; k < 3; k++) {
-                extent.low[k] = fmin(extent.low[k], at[k]);
-                extent.high[k] = fmax(extent.high[k], at[k]);
-                if (at[k] != 0 && isfinite(at[k])) {
-                    int bit = lowest_bit(at[k]);
-                    extent.finest = bit < extent.finest ? bit : extent.finest;
-                }
-            }
+            const uint32_t p = mesh->corners[mesh->faces[f].first + i];
+            measure_point(&extent, mesh->positions[p]);
+            if (mesh->morph.positions) { measure_point(&extent, mesh->morph.positions[p]); }
         }
     }
     for (int k = 0; k < 3; k++) {
@@ -112,11 +117,12 @@ typedef struct work {
     solid_t *solid;
     const mesh_t *mesh;
     const mesh_options_t *options;
-    int16_t (*places)[4];  /* of each position of the mesh; [3] = 0 */
+    int16_t (*places)[8];  /* of each position of the mesh: in the first and, from [4] on, in the second key frame; the rest 0 */
     uint32_t *place_index; /* of each position: equal for equal places */
     int8_t (*normals)[3];  /* of each normal of the mesh */
-    uint32_t *corner;      /* of the face at hand, without repetitions: indices into mesh->corners */
-    int32_t (*points)[3];
+    int8_t (*morph_normals)[3];
+    uint32_t *corner;                         /* of the face at hand, without repetitions: indices into mesh->corners */
+    int32_t (*points)[3], (*morph_points)[3]; /* of the face at hand */
     uint32_t (*triangles)[3];
     solid_vertex_t *vertices; /* one for each corner of the solid */
     uint32_t *vertex_places;
@@ -127,38 +133,49 @@ static void work_free(work_t *w) {
     free(w->places);
     free(w->place_index);
     free(w->normals);
+    free(w->morph_normals);
     free(w->corner);
     free(w->points);
+    free(w->morph_points);
     free(w->triangles);
     free(w->vertices);
     free(w->vertex_places);
 }
 
-static bool quantise_places(work_t *w) {
-    const mesh_t *mesh = w->mesh;
+static void quantise_place(work_t *w, const double from[3], int16_t to[3]) {
     solid_t *solid = w->solid;
+    double squares = 0;
+    for (int k = 0; k < 3; k++) {
+        int64_t q = round_to_step(from[k], solid->step_value) - solid->offset[k];
+        q = q > Q_MAX ? Q_MAX : q < -Q_MAX ? -Q_MAX : q; /* a step named by the caller may end half a step early */
+        double off = from[k] - (double)(q + solid->offset[k]) * solid->step_value;
+        to[k] = (int16_t)q;
+        squares += off * off;
+    }
+    solid->error = fmax(solid->error, sqrt(squares));
+}
+
+static void quantise_normals(int8_t (*to)[3], const double (*from)[3], size_t count) {
+    for (size_t n = 0; n < count; n++) {
+        for (int k = 0; k < 3; k++) {
+            to[n][k] = (int8_t)lround(fmax(-1, fmin(1, from[n][k])) * 127);
+        }
+    }
+}
+
+static void quantise_places(work_t *w) {
+    const mesh_t *mesh = w->mesh;
     for (size_t f = 0; f < mesh->face_count; f++) {
         for (uint32_t i = 0; i < mesh->faces[f].count; i++) {
             uint32_t p = mesh->corners[mesh->faces[f].first + i];
-            double squares = 0;
-            for (int k = 0; k < 3; k++) {
-                int64_t q = round_to_step(mesh->positions[p][k], solid->step_value) - solid->offset[k];
-                q = q > Q_MAX ? Q_MAX : q < -Q_MAX ? -Q_MAX : q; /* a step named by the caller may end half a step early */
-                double off = mesh->positions[p][k] - (double)(q + solid->offset[k]) * solid->step_value;
-                w->places[p][k] = (int16_t)q;
-                squares += off * off;
-            }
-            solid->error = fmax(solid->error, sqrt(squares));
+            quantise_place(w, mesh->positions[p], w->places[p]);
+            if (mesh->morph.positions) { quantise_place(w, mesh->morph.positions[p], w->places[p] + 4); }
         }
     }
-    solid->place_count =
+    w->solid->place_count =
         meshopt_generateVertexRemap(w->place_index, NULL, mesh->position_count, w->places, mesh->position_count, sizeof *w->places);
-    for (size_t n = 0; n < mesh->normal_count; n++) {
-        for (int k = 0; k < 3; k++) {
-            w->normals[n][k] = (int8_t)lround(fmax(-1, fmin(1, mesh->normals[n][k])) * 127);
-        }
-    }
-    return true;
+    quantise_normals(w->normals, (const double(*)[3])mesh->normals, mesh->normal_count);
+    quantise_normals(w->morph_normals, (const double(*)[3])mesh->morph.normals, mesh->morph.normal_count);
 }
 
 static bool planar(const mesh_t *mesh, const mesh_face_t *face, double tolerance) {
@@ -236,28 +253,65 @@ bool solid_convex(const int32_t (*points)[3], size_t count, const int64_t normal
     return true;
 }
 
-/* Appends a face of `count` corners, corner[pick[i]] or corner[i]; 0 when it has no area, -1 without memory. */
+static solid_vertex_t make_vertex(const work_t *w, const mesh_face_t *face, uint32_t corner) {
+    const mesh_t *mesh = w->mesh;
+    const uint32_t position = mesh->corners[corner];
+    solid_vertex_t vertex = {.zero = 0};
+    memcpy(vertex.position, w->places[position], sizeof vertex.position);
+    memcpy(vertex.normal, w->normals[mesh->corner_normals[corner]], sizeof vertex.normal);
+    if (w->solid->textured && mesh->surfaces[face->material].texture != TUILE_NO_TEXTURE) {
+        for (int k = 0; k < 2; k++) {
+            const double texels = ldexp(mesh->texcoords[corner][k], mesh->surfaces[face->material].uv_bits);
+            vertex.texcoord[k] = (int16_t)lround(fmax(-Q_MAX, fmin(Q_MAX, texels)));
+        }
+    }
+    if (w->solid->coloured) { memcpy(vertex.colour, mesh->colours[corner], sizeof vertex.colour); }
+    if (w->solid->morphs) {
+        memcpy(vertex.morph, w->places[position] + 4, sizeof vertex.morph);
+        memcpy(vertex.morph_normal, w->morph_normals[mesh->morph.corner_normals[corner]], sizeof vertex.morph_normal);
+    }
+    return vertex;
+}
+
+static bool is_zero(const int64_t v[3]) { return !v[0] && !v[1] && !v[2]; }
+
+static void unit_of(const int64_t normal[3], double unit[3]) {
+    double length = 0;
+    for (int k = 0; k < 3; k++) {
+        length += (double)normal[k] * (double)normal[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        unit[k] = length > 0 ? (double)normal[k] / sqrt(length) : 0;
+    }
+}
+
+/* Of the face's `count` corners, corner[pick[i]] or corner[i], in a key frame. False when they have no area. */
+static bool normal_of(const work_t *w, const uint32_t *pick, size_t count, bool second, int64_t normal[3]) {
+    const int32_t(*all)[3] = (const int32_t(*)[3])(second ? w->morph_points : w->points);
+    int32_t triangle[3][3];
+    for (int i = 0; pick && i < 3; i++) {
+        memcpy(triangle[i], all[pick[i]], sizeof triangle[i]);
+    }
+    const int32_t(*points)[3] = pick ? (const int32_t(*)[3])triangle : all;
+    solid_newell(points, count, normal);
+    return !is_zero(normal) || (count > 3 && first_normal(points, count, normal));
+}
+
+/* Appends a face of `count` corners, corner[pick[i]] or corner[i]; 0 when it has no area, -1 without memory. A face that has one in
+ * one key frame only takes its normal for both. */
 static int emit(work_t *w, const mesh_face_t *from, const uint32_t *pick, size_t count) {
     solid_t *solid = w->solid;
     solid_face_t face = {
         .first = (uint32_t)solid->corner_count, .count = (uint32_t)count, .material = from->material, .source = from->source};
-    const int32_t triangle[3][3] = {
-        {w->points[pick ? pick[0] : 0][0], w->points[pick ? pick[0] : 0][1], w->points[pick ? pick[0] : 0][2]},
-        {w->points[pick ? pick[1] : 1][0], w->points[pick ? pick[1] : 1][1], w->points[pick ? pick[1] : 1][2]},
-        {w->points[pick ? pick[2] : 2][0], w->points[pick ? pick[2] : 2][1], w->points[pick ? pick[2] : 2][2]}};
-    const int32_t(*points)[3] = pick ? triangle : (const int32_t(*)[3])w->points;
-    solid_newell(points, count, face.normal);
-    if (!face.normal[0] && !face.normal[1] && !face.normal[2] && (count == 3 || !first_normal(points, count, face.normal))) {
-        return 0;
+    int64_t second[3] = {0};
+    const bool has_second = solid->morphs && normal_of(w, pick, count, true, second);
+    if (!normal_of(w, pick, count, false, face.normal)) {
+        if (!has_second) { return 0; }
+        memcpy(face.normal, second, sizeof second);
     }
-    face.convex = count == 3 || solid_convex(points, count, face.normal);
-    double length = 0;
-    for (int k = 0; k < 3; k++) {
-        length += (double)face.normal[k] * (double)face.normal[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        face.unit[k] = (double)face.normal[k] / sqrt(length);
-    }
+    face.convex = count == 3 || solid_convex((const int32_t(*)[3])w->points, count, face.normal);
+    unit_of(face.normal, face.unit);
+    unit_of(has_second ? second : face.normal, face.morph_unit);
     size_t corners = solid->corner_count + count;
     if (corners >= UINT32_MAX || !mesh_reserve(&w->vertices, &w->vertex_capacity, corners, sizeof *w->vertices) ||
         !mesh_reserve(&w->vertex_places, &w->place_capacity, corners, sizeof *w->vertex_places) ||
@@ -265,12 +319,9 @@ static int emit(work_t *w, const mesh_face_t *from, const uint32_t *pick, size_t
         return -1;
     }
     for (size_t i = 0; i < count; i++) {
-        uint32_t c = w->corner[pick ? pick[i] : i], position = w->mesh->corners[c];
-        solid_vertex_t *vertex = &w->vertices[solid->corner_count + i];
-        memset(vertex->fraction, 0, sizeof vertex->fraction);
-        memcpy(vertex->position, w->places[position], sizeof vertex->position);
-        memcpy(vertex->normal, w->normals[w->mesh->corner_normals[c]], sizeof vertex->normal);
-        w->vertex_places[solid->corner_count + i] = w->place_index[position];
+        const uint32_t c = w->corner[pick ? pick[i] : i];
+        w->vertices[solid->corner_count + i] = make_vertex(w, from, c);
+        w->vertex_places[solid->corner_count + i] = w->place_index[w->mesh->corners[c]];
     }
     solid->corner_count = corners;
     solid->faces[solid->face_count++] = face;
@@ -292,6 +343,7 @@ static size_t gather(work_t *w, const mesh_face_t *face) {
     for (size_t i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++) {
             w->points[i][k] = w->places[w->mesh->corners[w->corner[i]]][k];
+            w->morph_points[i][k] = w->places[w->mesh->corners[w->corner[i]]][4 + k];
         }
     }
     return count;
@@ -305,11 +357,22 @@ static bool evenly_lit(const work_t *w, size_t count) {
     return true;
 }
 
+/* In the second key frame it is the same polygon elsewhere: then it stays one on the way. */
+static bool moves_as_one(const work_t *w, size_t count) {
+    for (size_t i = 1; w->solid->morphs && i < count; i++) {
+        for (int k = 0; k < 3; k++) {
+            if (w->morph_points[i][k] - w->points[i][k] != w->morph_points[0][k] - w->points[0][k]) { return false; }
+        }
+    }
+    return true;
+}
+
 static bool quantise_face(work_t *w, const mesh_face_t *face) {
     solid_t *solid = w->solid;
     size_t count = gather(w, face);
     bool bent = count > 3 && !w->options->keep_planar && !planar(w->mesh, face, solid->step_value);
-    bool split = bent || count > MESH_CORNERS_MAX || (w->options->triangles && count > 3);
+    bool split = bent || count > MESH_CORNERS_MAX || (w->options->triangles && count > 3) ||
+                 (count > 3 && (!moves_as_one(w, count) || !mesh_face_affine(w->mesh, face)));
     if (count > 3 && !split && !evenly_lit(w, count)) { /* interpolated light is only right on triangles: no fan, no single face */
         int64_t normal[3];
         solid_newell((const int32_t(*)[3])w->points, count, normal);
@@ -324,7 +387,11 @@ static bool quantise_face(work_t *w, const mesh_face_t *face) {
         solid->skipped += made == 0;
         return made >= 0;
     }
-    long triangles = mesh_triangulate((const int32_t(*)[3])w->points, count, w->triangles);
+    const int32_t(*points)[3] = (const int32_t(*)[3])w->points;
+    long triangles = mesh_triangulate(points, count, w->triangles);
+    if (triangles == 0 && w->solid->morphs) { /* no area but in the second key frame */
+        triangles = mesh_triangulate((const int32_t(*)[3])w->morph_points, count, w->triangles);
+    }
     size_t before = solid->face_count;
     for (long t = 0; t < triangles; t++) {
         if (emit(w, face, w->triangles[t], 3) < 0) { return false; }
@@ -339,7 +406,7 @@ static bool quantise_face(work_t *w, const mesh_face_t *face) {
     return triangles >= 0;
 }
 
-/* One vertex for each pair of place and normal. */
+/* One vertex for each place, normal and whatever else there is. */
 static bool join(work_t *w) {
     solid_t *solid = w->solid;
     solid->corners = mesh_array(solid->corner_count, sizeof *solid->corners);
@@ -362,6 +429,9 @@ static bool join(work_t *w) {
 
 int solid_quantise(solid_t *solid, const mesh_t *mesh, const mesh_options_t *options, sim_error_t *error) {
     memset(solid, 0, sizeof *solid);
+    solid->textured = mesh->texcoords && mesh->surfaces;
+    solid->coloured = mesh->colours != NULL;
+    solid->morphs = mesh->morph.positions != NULL;
     if (mesh->face_count == 0) { return sim_fail(error, "the model has no faces; there is nothing to draw"); }
     extent_t extent = measure(mesh);
     if (choose_grid(solid, &extent, options->step, error)) { return -1; }
@@ -373,10 +443,13 @@ int solid_quantise(solid_t *solid, const mesh_t *mesh, const mesh_options_t *opt
     w.places = mesh_array(mesh->position_count, sizeof *w.places);
     w.place_index = mesh_array(mesh->position_count, sizeof *w.place_index);
     w.normals = mesh_array(mesh->normal_count, sizeof *w.normals);
+    w.morph_normals = mesh_array(mesh->morph.normal_count, sizeof *w.morph_normals);
     w.corner = mesh_array(largest, sizeof *w.corner);
     w.points = mesh_array(largest, sizeof *w.points);
+    w.morph_points = mesh_array(largest, sizeof *w.morph_points);
     w.triangles = mesh_array(largest, sizeof *w.triangles);
-    bool done = w.places && w.place_index && w.normals && w.corner && w.points && w.triangles && quantise_places(&w);
+    bool done = w.places && w.place_index && w.normals && w.corner && w.points && w.morph_points && w.triangles && w.morph_normals;
+    if (done) { quantise_places(&w); }
     for (size_t f = 0; done && f < mesh->face_count; f++) {
         done = quantise_face(&w, &mesh->faces[f]);
     }

@@ -38,6 +38,12 @@ void mesh_face_normal(const mesh_t *mesh, const mesh_face_t *face, double normal
  * own by less than the crease angle of 60 degrees. flat: the face's own. */
 int mesh_make_normals(mesh_t *mesh, bool flat, sim_error_t *error);
 
+/* ---- affine.c ---------------------------------------------------------------------------------------------- */
+
+/* Are texture coordinates, within 1/64 texel, and colours, within half of 1/255, affine over the face? Else it has to become
+ * triangles. True of faces without either. */
+bool mesh_face_affine(const mesh_t *mesh, const mesh_face_t *face);
+
 /* ---- palette.c --------------------------------------------------------------------------------------------- */
 
 #define MESH_MATERIALS_MAX 256u
@@ -57,10 +63,15 @@ long mesh_triangulate(const int32_t (*points)[3], size_t count, uint32_t (*trian
 
 /* ---- quantise.c: the mesh on its integer grid -------------------------------------------------------------- */
 
+/* No padding: vertices are compared by their bytes. */
 typedef struct solid_vertex {
     int16_t position[3];
     int8_t normal[3];
-    int8_t fraction[3]; /* in 1/256 step: of corners that a tree made. No padding: vertices are compared by their bytes */
+    int8_t fraction[3];  /* in 1/256 step: of corners that a tree made */
+    int16_t texcoord[2]; /* 0 where the material has no texture */
+    uint8_t colour[4];   /* 0 where the mesh has no vertex colours */
+    int16_t morph[3];    /* position in the second key frame; 0 without one */
+    int8_t morph_normal[3], zero;
 } solid_vertex_t;
 
 typedef struct solid_face {
@@ -71,6 +82,7 @@ typedef struct solid_face {
     bool piece;        /* cut by the display tree's compiler: its corners were rounded, its normal is that of its support plane */
     int64_t normal[3]; /* Newell's, exact: twice the area long; of a piece any length */
     double unit[3];
+    double morph_unit[3]; /* of the second key frame */
 } solid_face_t;
 
 typedef struct solid {
@@ -85,7 +97,8 @@ typedef struct solid {
     solid_face_t *faces;
     size_t face_count;
     size_t polygons, non_planar, split, skipped;
-    double error; /* model units */
+    double error;                    /* model units */
+    bool textured, coloured, morphs; /* whether vertices have these */
 } solid_t;
 
 void solid_free(solid_t *solid);

@@ -9,7 +9,7 @@
 
 typedef struct rounded {
     int32_t at[3]; /* in 1/256 step */
-    float normal[3];
+    float varying[SPACE_VARYING];
     bool whole; /* nothing had to be rounded */
 } rounded_t;
 
@@ -28,12 +28,12 @@ typedef struct maker {
 
 /* ---- the outline of a piece --------------------------------------------------------------------------------- */
 
-static bool add_corner(maker_t *m, uint32_t point, const float normal[3]) {
+static bool add_corner(maker_t *m, uint32_t point, const float varying[SPACE_VARYING]) {
     if (!mesh_reserve(&m->outline, &m->outline_capacity, m->count + 1, sizeof *m->outline)) { return false; }
     rounded_t *to = &m->outline[m->count++];
     exact_round(&m->space->points[point], to->at);
     to->whole = m->space->points[point].w == 1;
-    memcpy(to->normal, normal, sizeof to->normal);
+    memcpy(to->varying, varying, sizeof to->varying);
     return true;
 }
 
@@ -43,18 +43,18 @@ static bool trace(maker_t *m, const space_piece_t *piece) {
     for (uint32_t i = 0; i < piece->count; i++) {
         const space_corner_t *from = &space->corners[piece->first + i];
         const space_corner_t *to = &space->corners[piece->first + (i + 1) % piece->count];
-        if (!add_corner(m, from->point, from->normal)) { return false; }
+        if (!add_corner(m, from->point, from->varying)) { return false; }
         const space_run_t run = space_between(space, from->line, from->point, to->point);
         const double start = space->points[from->point].at[run.axis], end = space->points[to->point].at[run.axis];
         for (size_t k = 0; k < run.count; k++) {
             const uint32_t point = *(run.step > 0 ? run.at + k : run.at - k);
             double part = (space->points[point].at[run.axis] - start) / (end - start);
             part = part >= 0 && part <= 1 ? part : 0.5;
-            float normal[3];
-            for (int j = 0; j < 3; j++) {
-                normal[j] = (float)(from->normal[j] + (to->normal[j] - from->normal[j]) * part);
+            float varying[SPACE_VARYING];
+            for (int j = 0; j < SPACE_VARYING; j++) {
+                varying[j] = (float)(from->varying[j] + (to->varying[j] - from->varying[j]) * part);
             }
-            if (!add_corner(m, point, normal)) { return false; }
+            if (!add_corner(m, point, varying)) { return false; }
         }
         m->counts->seam_corners += run.count;
     }
@@ -73,7 +73,7 @@ static void reverse(maker_t *m) {
     reverse_order(m);
     for (size_t i = 0; i < m->count; i++) {
         for (int k = 0; k < 3; k++) {
-            m->outline[i].normal[k] = -m->outline[i].normal[k];
+            m->outline[i].varying[SPACE_NORMAL + k] *= -1;
         }
     }
 }
@@ -135,7 +135,13 @@ static bool emit(maker_t *m, const space_face_t *from, bool reversed, const uint
         for (int k = 0; k < 3; k++) {
             vertex->position[k] = (int16_t)((corner->at[k] + 128) >> 8);
             vertex->fraction[k] = (int8_t)(corner->at[k] - 256 * vertex->position[k]);
-            vertex->normal[k] = (int8_t)lrintf(corner->normal[k]);
+            vertex->normal[k] = (int8_t)lrintf(corner->varying[SPACE_NORMAL + k]);
+        }
+        for (int k = 0; k < 2; k++) {
+            vertex->texcoord[k] = (int16_t)lrintf(corner->varying[SPACE_TEXCOORD + k]);
+        }
+        for (int k = 0; k < 4; k++) {
+            vertex->colour[k] = (uint8_t)lrintf(corner->varying[SPACE_COLOUR + k]);
         }
         face.piece = face.piece || !corner->whole;
     }
@@ -290,7 +296,7 @@ static bool make_all(maker_t *m, tree_t *tree) {
     return true;
 }
 
-/* One vertex for each pair of place and normal, and a number for each place. */
+/* One vertex for each place and what varies there, and a number for each place. */
 static bool join(maker_t *m) {
     solid_t *out = m->out;
     out->corners = mesh_array(out->corner_count, sizeof *out->corners);
@@ -396,7 +402,9 @@ int tree_make_solid(tree_t *tree, space_t *space, solid_t *out, const mesh_optio
                      .non_planar = in->non_planar + space->non_planar,
                      .split = in->split,
                      .skipped = in->skipped,
-                     .error = in->error};
+                     .error = in->error,
+                     .textured = in->textured,
+                     .coloured = in->coloured};
     *counts = (tree_counts_t){0};
     bool good = space_sort_lines(space) && make_all(&m, tree) && prune(tree, space);
     const size_t faces = out->face_count;

@@ -158,6 +158,18 @@ double space_slack(const space_t *space, uint32_t plane, const exact_point_t *po
     return fmin(space->rounding * (2 + r * slack->tilt), SPACE_SLACK_MAX);
 }
 
+static void spread(const solid_vertex_t *vertex, float varying[SPACE_VARYING]) {
+    for (int k = 0; k < 3; k++) {
+        varying[SPACE_NORMAL + k] = vertex->normal[k];
+    }
+    for (int k = 0; k < 2; k++) {
+        varying[SPACE_TEXCOORD + k] = vertex->texcoord[k];
+    }
+    for (int k = 0; k < 4; k++) {
+        varying[SPACE_COLOUR + k] = vertex->colour[k];
+    }
+}
+
 /* corners: vertices of the solid. */
 static bool add_face(space_t *space, const solid_face_t *from, const uint32_t *corners, size_t count, const int64_t normal[3]) {
     const solid_vertex_t *vertices = space->solid->vertices;
@@ -176,9 +188,9 @@ static bool add_face(space_t *space, const solid_face_t *from, const uint32_t *c
         buffer[i] = (space_corner_t){.point = space->solid->places[v],
                                      .line = enter_edge(space, space->solid->places[v], space->solid->places[next])};
         if (buffer[i].line == SPACE_NONE) { return false; }
-        for (int k = 0; k < 3; k++) {
-            buffer[i].normal[k] = vertices[v].normal[k];
-            face.even = face.even && vertices[v].normal[k] == vertices[corners[0]].normal[k];
+        spread(&vertices[v], buffer[i].varying);
+        for (int k = 0; k < SPACE_VARYING; k++) {
+            face.even = face.even && !(buffer[i].varying[k] < buffer[0].varying[k] || buffer[i].varying[k] > buffer[0].varying[k]);
         }
     }
     space->faces[space->face_count] = face;
@@ -280,7 +292,7 @@ static bool emit(space_t *space, int half, size_t *count, const space_corner_t *
     return true;
 }
 
-/* The point in which a side crosses the plane, lit in between. SPACE_NONE as point without memory. */
+/* The point in which a side crosses the plane, with what varies as it is there. SPACE_NONE as point without memory. */
 static space_corner_t crossing(space_t *space, const space_corner_t *from, const space_corner_t *to, uint32_t plane) {
     const space_line_t *line = &space->lines[from->line];
     const exact_plane_t *cut = &space->planes[plane];
@@ -298,8 +310,8 @@ static space_corner_t crossing(space_t *space, const space_corner_t *from, const
     double part = off[0] / (off[0] - off[1]);
     part = part >= 0 && part <= 1 ? part : 0.5; /* both may be 0 as doubles */
     space_corner_t corner = {.point = enter_point(space, &point)};
-    for (int k = 0; k < 3; k++) {
-        corner.normal[k] = (float)(from->normal[k] + (to->normal[k] - from->normal[k]) * part);
+    for (int k = 0; k < SPACE_VARYING; k++) {
+        corner.varying[k] = (float)(from->varying[k] + (to->varying[k] - from->varying[k]) * part);
     }
     return corner;
 }

@@ -37,15 +37,18 @@ typedef struct space_mark {
     uint32_t point, next;
 } space_mark_t;
 
+/* What varies over a face: its normal in 1/127, texture coordinates and colour as solid_vertex_t has them. */
+enum { SPACE_NORMAL = 0, SPACE_TEXCOORD = 3, SPACE_COLOUR = 5, SPACE_VARYING = 9 };
+
 typedef struct space_corner {
     uint32_t point, line; /* the line of the side that begins here */
-    float normal[3];      /* in 1/127 */
+    float varying[SPACE_VARYING];
 } space_corner_t;
 
 typedef struct space_face {
     uint32_t plane, material, source;
     bool turned; /* its normal is the opposite of the plane's */
-    bool even;   /* lit by one normal */
+    bool even;   /* nothing varies over it */
 } space_face_t;
 
 typedef struct space_piece {
