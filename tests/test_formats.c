@@ -1,0 +1,218 @@
+/* Formats in whole pictures: the same through any tiles, memory and method; blocks that the macros size; dots that show shading. */
+#include "support/check.h"
+#include "support/frame.h"
+#include "support/models.h"
+#include "support/stage.h"
+
+#define WIDTH 61u
+#define HEIGHT 43u
+
+static bool is_mono(unsigned format) { return format == TUILE_MONO_PAGES || format == TUILE_MONO_ROWS; }
+
+/* ---- nothing crawls ---- */
+
+static void compare(const tuile_scene_t *scene, const tuile_config_t *config, size_t size_bytes, const uint8_t *expected) {
+    uint8_t *picture = frame_draw(scene, config, size_bytes, NULL);
+    if (memcmp(picture, expected, frame_bytes(config)) != 0) {
+        fail_msg("format %u, dither %u, aa %u, method %u, tiles %ux%u, %zu bytes: another picture", config->format, config->dither,
+                 config->aa, config->method, config->tile_width, config->tile_height, size_bytes);
+    }
+    free(picture);
+}
+
+/* Tiles that suit all formats, then tiles that do not suit those whose pixels share bytes. */
+static void compare_all(const tuile_scene_t *scene, tuile_config_t config, const uint8_t *expected) {
+    static const uint16_t tiles[][2] = {{0, 0}, {16, 8}, {24, 24}, {61, 16}, {14, 5}, {7, 43}};
+    const bool shared = config.format == TUILE_RGB444 || config.format == TUILE_GREY4;
+    for (unsigned i = 0; i < CHECK_COUNT(tiles); i++) {
+        if ((i > 3 && is_mono(config.format)) || (i > 4 && shared)) { continue; }
+        for (unsigned method = 0; method < TUILE_TREE; method++) {
+            config.method = (uint8_t)method;
+            config.tile_width = tiles[i][0];
+            config.tile_height = tiles[i][1];
+            compare(scene, &config, (size_t)1 << 20, expected);
+        }
+    }
+    for (unsigned i = 1; i < 3; i++) { /* faces as they come; several passes */
+        config.method = TUILE_ZBUFFER;
+        config.tile_width = i == 1 ? 16 : 0;
+        config.tile_height = 8;
+        compare(scene, &config, frame_least_bytes(&config) + (i - 1) * 4000, expected);
+    }
+}
+
+static void tiles_memory_and_method_do_not_move_the_matrix(void **state) {
+    stage_t stage;
+    mesh_t mesh;
+    (void)state;
+    model_torus(&mesh, 32, 14, false);
+    stage_open(&stage, &mesh, WIDTH, HEIGHT);
+    for (unsigned format = 0; format < TUILE_FORMAT_COUNT; format++) {
+        for (unsigned i = 0; i < 6; i++) {
+            tuile_config_t config = {
+                .width = WIDTH, .height = HEIGHT, .format = (uint8_t)format, .dither = i % 2, .aa = (uint8_t)(i / 2)};
+            if (format == TUILE_FACE_IDS && i > 0) { continue; }
+            config.cluster_vertices = stage.compiled.model.cluster_vertices_max;
+            config.shade = TUILE_GOURAUD;
+            /* Colours that are kept whole are shaded pixel by pixel, others may be shaded by ramps. */
+            uint8_t *expected = frame_draw(&stage.view.scene, &config, (size_t)1 << 20, NULL);
+            compare_all(&stage.view.scene, config, expected);
+            free(expected);
+        }
+    }
+    stage_close(&stage);
+}
+
+static void the_tree_draws_every_format_as_the_z_buffer_does(void **state) {
+    stage_t stage;
+    mesh_t mesh;
+    const mesh_options_t with = {.tree = true};
+    (void)state;
+    model_sphere(&mesh, 9, 16);
+    model_compile_with(&stage.compiled, &mesh, &with);
+    mesh_free(&mesh);
+    stage_aim(&stage, NULL, WIDTH, HEIGHT);
+    for (unsigned format = 0; format < TUILE_FORMAT_COUNT; format++) {
+        tuile_config_t config = {.width = WIDTH, .height = HEIGHT, .format = (uint8_t)format};
+        config.aa = format == TUILE_FACE_IDS ? TUILE_AA_NONE : TUILE_AA_2X2;
+        config.tree_depth = stage.compiled.model.tree_depth;
+        uint8_t *expected = frame_draw(&stage.view.scene, &config, (size_t)1 << 20, NULL);
+        config.method = TUILE_TREE;
+        if (format != TUILE_FACE_IDS) { compare(&stage.view.scene, &config, (size_t)1 << 20, expected); }
+        free(expected);
+    }
+    stage_close(&stage);
+}
+
+static void tiles_that_would_share_bytes_are_refused(void **state) {
+    static const struct {
+        uint8_t format;
+        uint16_t width, height;
+        int result;
+    } tiles[] = {
+        {TUILE_RGB444, 15, 4, TUILE_ERROR_ARGUMENT},    {TUILE_RGB444, 16, 3, TUILE_ERROR_MEMORY},
+        {TUILE_RGB444, 61, 4, TUILE_ERROR_MEMORY},      {TUILE_GREY4, 15, 4, TUILE_ERROR_ARGUMENT},
+        {TUILE_GREY4, 61, 1, TUILE_ERROR_MEMORY},       {TUILE_MONO_ROWS, 12, 4, TUILE_ERROR_ARGUMENT},
+        {TUILE_MONO_ROWS, 16, 3, TUILE_ERROR_MEMORY},   {TUILE_MONO_PAGES, 16, 12, TUILE_ERROR_ARGUMENT},
+        {TUILE_MONO_PAGES, 15, 16, TUILE_ERROR_MEMORY}, {TUILE_MONO_PAGES, 15, 43, TUILE_ERROR_MEMORY},
+        {TUILE_RGB666, 15, 3, TUILE_ERROR_MEMORY},      {TUILE_RGB332, 15, 3, TUILE_ERROR_MEMORY},
+    };
+    tuile_t *renderer;
+    (void)state;
+    for (unsigned i = 0; i < CHECK_COUNT(tiles); i++) {
+        const tuile_config_t config = {.width = WIDTH,
+                                       .height = HEIGHT,
+                                       .format = tiles[i].format,
+                                       .tile_width = tiles[i].width,
+                                       .tile_height = tiles[i].height};
+        const int result = tuile_init(&renderer, &config, NULL, 0, NULL);
+        if (result != tiles[i].result) { fail_msg("%u: %d", i, result); }
+    }
+}
+
+/* ---- memory ---- */
+
+/* A constant expression. */
+_Static_assert(TUILE_BLOCK_BYTES(64u, 128u, 8u, TUILE_MONO_PAGES, 1u, 64u, 0, TUILE_AA_NONE, true) < 9000u,
+               "dots in a small block");
+
+static void the_macro_is_the_least_block_of_every_configuration(void **state) {
+    static const uint16_t tiles[][2] = {{120, 8}, {16, 16}, {32, 24}, {120, 90}};
+    unsigned compared = 0;
+    (void)state;
+    for (unsigned i = 0; i < TUILE_FORMAT_COUNT * 2 * 3 * 4 * 2 * CHECK_COUNT(tiles); i++) {
+        unsigned rest = i;
+        tuile_config_t config = {.width = 120, .height = 90, .cluster_vertices = 40};
+        config.format = (uint8_t)(rest % TUILE_FORMAT_COUNT), rest /= TUILE_FORMAT_COUNT;
+        config.dither = rest % 2, rest /= 2;
+        config.aa = (uint8_t)(rest % 3), rest /= 3;
+        config.effects = (uint8_t)(rest % 4), rest /= 4;
+        config.buffers = (uint8_t)(1 + rest % 2), rest /= 2;
+        config.tile_width = tiles[rest][0];
+        config.tile_height = tiles[rest][1];
+        if (config.format == TUILE_FACE_IDS && (config.dither || config.aa || config.effects)) { continue; }
+        assert_int_equal(frame_least_bytes(&config),
+                         TUILE_BLOCK_BYTES((size_t)90, (size_t)config.tile_width, (size_t)config.tile_height, config.format,
+                                           (size_t)config.buffers, (size_t)40, config.effects, config.aa, config.dither));
+        compared++;
+    }
+    assert_int_equal(compared, (9 * 24 + 1) * 2 * CHECK_COUNT(tiles));
+}
+
+/* What the macro adds up, once by hand: 64 columns of 16 rows in 2x2 samples of RGB444, dithered: 4096 samples of 4 bytes, a number
+ * and a depth of 2 bytes each, two tiles of 1536 bytes. */
+static void the_macro_counts_the_samples(void **state) {
+    const size_t small =
+        TUILE_BLOCK_BYTES((size_t)64, (size_t)64, (size_t)16, TUILE_RGB444, (size_t)2, (size_t)64, 0, TUILE_AA_2X2, true);
+    const size_t none = TUILE_LEAST_BYTES((size_t)64, (size_t)64, (size_t)16, TUILE_RGB444, (size_t)2, (size_t)64);
+    (void)state;
+    assert_int_equal(none, TUILE_STATE_BYTES + 1024 * 2 + 2 * 1536 + 128 + 8 + 64 * 8 + TUILE_CLIP_BYTES);
+    assert_int_equal(small - none, 4096 * (4 + 2 + 2) - 1024 * 2 + TUILE_SURFACE_BYTES(64));
+}
+
+/* ---- dots ---- */
+
+/* Each pixel of a block turns white when it gets brighter, never back; so a block has at least as many dots as if all of it were as
+ * dark as its darkest pixel, and at most as many as for its brightest: means within 1/128, and half a step of GREY8. */
+static void dots_follow_the_luminance_of_a_sphere(void **state) {
+    stage_t stage;
+    mesh_t mesh;
+    (void)state;
+    model_sphere(&mesh, 18, 32);
+    stage_open(&stage, &mesh, 128, 64);
+    for (unsigned aa = 0; aa < 3; aa++) {
+        tuile_config_t grey = {.width = 128, .height = 64, .format = TUILE_GREY8, .shade = TUILE_GOURAUD, .aa = (uint8_t)aa},
+                       dots = grey;
+        dots.format = aa == 1 ? TUILE_MONO_ROWS : TUILE_MONO_PAGES;
+        uint8_t *shaded = frame_draw(&stage.view.scene, &grey, (size_t)1 << 20, NULL),
+                *dotted = frame_draw(&stage.view.scene, &dots, (size_t)1 << 20, NULL);
+        unsigned darkest = 64, brightest = 0;
+        for (unsigned block = 0; block < 128 / 8 * 64 / 8; block++) {
+            unsigned count = 0, least = 255, most = 0;
+            for (unsigned i = 0; i < 64; i++) {
+                const size_t at = (size_t)(block / 16 * 8 + i / 8) * 128 + block % 16 * 8 + i % 8;
+                count += dotted[at];
+                least = shaded[at] < least ? shaded[at] : least;
+                most = shaded[at] > most ? shaded[at] : most;
+            }
+            assert_true(count / 64.0 >= (least - 0.5) / 255 - 1.0 / 128);
+            assert_true(count / 64.0 <= (most + 0.5) / 255 + 1.0 / 128);
+            darkest = count < darkest ? count : darkest;
+            brightest = count > brightest ? count : brightest;
+        }
+        assert_true(brightest - darkest > 24); /* of 64 */
+        free(shaded);
+        free(dotted);
+    }
+    stage_close(&stage);
+}
+
+static void a_white_or_black_window_has_no_dots_of_the_other_kind(void **state) {
+    tuile_scene_t scene = {.camera = stage_plain_camera(WIDTH, HEIGHT)};
+    (void)state;
+    for (unsigned i = 0; i < 6; i++) {
+        const tuile_config_t config = {
+            .width = WIDTH, .height = HEIGHT, .format = i % 2 ? TUILE_MONO_ROWS : TUILE_MONO_PAGES, .aa = (uint8_t)(i / 2)};
+        for (unsigned white = 0; white < 2; white++) {
+            memset(scene.background, white ? 255 : 0, 3);
+            uint8_t *picture = frame_draw(&scene, &config, (size_t)1 << 20, NULL);
+            for (unsigned k = 0; k < WIDTH * HEIGHT; k++) {
+                assert_int_equal(picture[k], white);
+            }
+            free(picture);
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tiles_memory_and_method_do_not_move_the_matrix),
+        cmocka_unit_test(the_tree_draws_every_format_as_the_z_buffer_does),
+        cmocka_unit_test(tiles_that_would_share_bytes_are_refused),
+        cmocka_unit_test(the_macro_is_the_least_block_of_every_configuration),
+        cmocka_unit_test(the_macro_counts_the_samples),
+        cmocka_unit_test(dots_follow_the_luminance_of_a_sphere),
+        cmocka_unit_test(a_white_or_black_window_has_no_dots_of_the_other_kind),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
