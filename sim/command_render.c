@@ -8,6 +8,8 @@
 #include "mesh/mesh.h"
 #include "options.h"
 #include "output.h"
+#include "render_format.h"
+#include "render_value.h"
 #include "sheet.h"
 #include "show.h"
 #include "view.h"
@@ -62,6 +64,7 @@ typedef struct render {
     show_view_t show;
     double pick_at[2];
     tuile_config_t config;
+    render_format_t format;
     mesh_options_t mesh_options;
     view_options_t view_options;
 
@@ -82,91 +85,6 @@ typedef struct render {
     uint64_t wire_bytes;
     sim_error_t error;
 } render_t;
-
-static bool parse_background(options_t *options, uint8_t background[3]) {
-    const char *text = options_value(options);
-    unsigned value;
-    char rest;
-    if (!text) { return false; }
-    if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6 || sscanf(text, "%6x%c", &value, &rest) != 1) {
-        (void)command_fail("--background %s: wants six hexadecimal digits, RRGGBB", text);
-        options->failed = true;
-        return false;
-    }
-    background[0] = (uint8_t)(value >> 16);
-    background[1] = (uint8_t)(value >> 8);
-    background[2] = (uint8_t)value;
-    return true;
-}
-
-/* "single,box": tuile_warnock_t, or-ed. */
-static bool parse_warnock(options_t *options, uint8_t *variants) {
-    static const char *const names[] = {"quarters", "single", "box", "sorted", "pixels"};
-    const char *text = options_value(options), *at = text;
-    unsigned mask = 0;
-    if (!text) { return false; }
-    for (;;) {
-        const size_t length = strcspn(at, ",");
-        unsigned i = 0;
-        while (i < 5 && (strlen(names[i]) != length || strncmp(names[i], at, length) != 0)) {
-            i++;
-        }
-        if (i == 5) {
-            (void)command_fail("--warnock %s: wants quarters, single, box, sorted or pixels, or several with commas between", text);
-            options->failed = true;
-            return false;
-        }
-        mask |= 1u << i;
-        at += length;
-        if (*at++ == '\0') { break; }
-    }
-    *variants = (uint8_t)mask;
-    return true;
-}
-
-/* An output name may hold one %d, with a width; without it all frames would have the same name. */
-static bool check_pattern(const char *option, const char *name, long frames) {
-    const char *percent = name ? strchr(name, '%') : NULL;
-    if (!name) { return true; }
-    if (!percent) {
-        if (frames == 1) { return true; }
-        (void)command_fail("%s %s: the name needs a number like %%03d, since there are %ld frames", option, name, frames);
-        return false;
-    }
-    const char *at = percent + 1;
-    while (*at >= '0' && *at <= '9') {
-        at++;
-    }
-    if (*at != 'd' || at - percent > 3 || strchr(at, '%')) {
-        (void)command_fail("%s %s: only one number, like %%d or %%03d, may stand in the name", option, name);
-        return false;
-    }
-    return true;
-}
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wformat-nonliteral"
-static void frame_name(char *name, size_t size, const char *pattern, unsigned frame) {
-    (void)snprintf(name, size, pattern, (int)frame);
-}
-#pragma GCC diagnostic pop
-
-static bool parse_clock(options_t *options, size_t *hz) {
-    double value;
-    const char *text = options_value(options);
-    char *end;
-    if (!text) { return false; }
-    value = strtod(text, &end);
-    if (*end == 'M') { value *= 1e6, end++; }
-    if (*end == 'k' || *end == 'K') { value *= 1e3, end++; }
-    if (end == text || *end != '\0' || !(value >= 0 && value <= 1e9)) {
-        (void)command_fail("--clock %s: wants Hz, like 62.5M, up to 1000M", text);
-        options->failed = true;
-        return false;
-    }
-    *hz = (size_t)value;
-    return true;
-}
 
 static int parse(render_t *r, int count, char **arguments) {
     static const char *const panels[] = {"ili9341", NULL}, *const rotations[] = {"0", "90", "180", "270", NULL};
@@ -191,11 +109,11 @@ static int parse(render_t *r, int count, char **arguments) {
         } else if (strcmp(argument, "--rotate") == 0) {
             if (options_choice(&options, &choice, rotations)) { r->rotate = choice; }
         } else if (strcmp(argument, "--clock") == 0) {
-            (void)parse_clock(&options, &r->clock_hz);
+            (void)render_value_clock(&options, &r->clock_hz);
         } else if (strcmp(argument, "--method") == 0) {
             if (options_choice(&options, &choice, options_methods)) { r->config.method = (uint8_t)choice; }
         } else if (strcmp(argument, "--warnock") == 0) {
-            (void)parse_warnock(&options, &r->config.warnock);
+            (void)render_value_warnock(&options, &r->config.warnock);
         } else if (strcmp(argument, "--shade") == 0) {
             if (options_choice(&options, &choice, shades)) { r->config.shade = (uint8_t)choice; }
         } else if (strcmp(argument, "--memory") == 0) {
@@ -238,7 +156,7 @@ static int parse(render_t *r, int count, char **arguments) {
         } else if (strcmp(argument, "--light") == 0) {
             v->has_light = options_numbers(&options, v->light, 3, -far, far);
         } else if (strcmp(argument, "--background") == 0) {
-            (void)parse_background(&options, v->background);
+            (void)render_value_background(&options, v->background);
         } else if (strcmp(argument, "--out") == 0) {
             r->out = options_value(&options);
         } else if (strcmp(argument, "--show") == 0) {
@@ -261,18 +179,22 @@ static int parse(render_t *r, int count, char **arguments) {
             r->hash = true;
         } else if (strcmp(argument, "--help") == 0) {
             (void)fputs(usage, stdout);
+            (void)fputs(render_format_usage, stdout);
             return -1;
-        } else {
+        } else if (!render_format_option(&r->format, &options, argument)) {
             options_unknown(&options);
         }
     }
     if (options.failed) { return EXIT_USAGE; }
     if (!r->model_path) {
         (void)fputs(usage, stderr);
+        (void)fputs(render_format_usage, stderr);
         return EXIT_USAGE;
     }
     if (r->has_show && !r->out) { return command_fail("--show: where to? Add --out FILE.png"), EXIT_USAGE; }
-    if (!check_pattern("--out", r->out, r->frames) || !check_pattern("--ids", r->ids, r->frames)) { return EXIT_USAGE; }
+    if (!render_value_pattern("--out", r->out, r->frames) || !render_value_pattern("--ids", r->ids, r->frames)) {
+        return EXIT_USAGE;
+    }
     return 0;
 }
 
@@ -280,9 +202,10 @@ static int parse(render_t *r, int count, char **arguments) {
 static size_t one_pass_bytes(const tuile_model_t *model, const tuile_config_t *config) {
     const size_t tile_width = config->tile_width ? config->tile_width : config->width;
     const size_t tile_height = config->tile_height ? config->tile_height : 24;
-    return TUILE_LEAST_BYTES((size_t)config->height, tile_width, tile_height, config->format, 2u, 255u) +
+    return TUILE_BLOCK_BYTES((size_t)config->height, tile_width, tile_height, config->format, 2u, 255u, config->effects, config->aa,
+                             config->dither) +
            16u * (size_t)model->vertex_count + 130u * (size_t)model->material_count + TUILE_CORNERS_BYTES(model->corners_max) +
-           24u * (size_t)model->face_count + 65536u;
+           32u * (size_t)model->face_count + 65536u;
 }
 
 static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t *config, const tuile_model_t *model,
@@ -328,6 +251,7 @@ static int set_up(render_t *r) {
 
     r->config.width = r->display.width;
     r->config.height = r->display.height;
+    if (render_format_apply(&r->format, r->rotate, &r->config) != 0) { return EXIT_FAILURE; }
     if (open_renderer(&r->renderer, &r->block, &r->config, &r->model, &r->memory_bytes) != 0) { return EXIT_FAILURE; }
     if (view_make(&r->view, &r->view_options, &r->model, r->config.width, r->config.height, (unsigned)r->frames, &r->error) != 0) {
         return command_fail("%s", r->error.text);
@@ -358,8 +282,10 @@ static int write_ids(render_t *r, unsigned frame) {
     const size_t width = config.width, pixels = width * config.height;
 
     if (!strchr(r->ids, '%') && frame > 0) { return 0; }
-    frame_name(name, sizeof name, r->ids, frame);
+    render_value_frame_name(name, sizeof name, r->ids, frame);
     config.format = TUILE_FACE_IDS;
+    config.aa = TUILE_AA_NONE;
+    config.dither = false;
     uint32_t *ids = calloc(pixels, sizeof *ids);
     if (!ids) { return command_fail("out of memory"); }
     int code = open_renderer(&renderer, &block, &config, &r->model, &memory_bytes);
@@ -414,9 +340,13 @@ static void report_frame(const render_t *r, unsigned frame, const char *hash) {
     const tuile_stats_t *s = &r->stats;
     const tuile_config_t *c = tuile_config(r->renderer);
     FILE *f = r->report_file.file;
+    char format[64];
+    render_format_text(c, format, sizeof format);
     (void)fprintf(
-        f, "%s\n    {\"frame\": %u, \"hash\": \"%s\", \"width\": %u, \"height\": %u, \"tile_width\": %u, \"tile_height\": %u,\n",
-        frame ? "," : "", frame, hash, c->width, c->height, c->tile_width, c->tile_height);
+        f,
+        "%s\n    {\"frame\": %u, \"hash\": \"%s\", \"width\": %u, \"height\": %u, \"tile_width\": %u, \"tile_height\": %u,\n"
+        "     \"format\": \"%s\",\n",
+        frame ? "," : "", frame, hash, c->width, c->height, c->tile_width, c->tile_height, format);
     (void)fprintf(
         f, "     \"faces\": %u, \"clusters\": %u, \"clusters_outside\": %u, \"clusters_facing_away\": %u, \"vertices\": %u,\n",
         s->faces, s->clusters, s->clusters_outside, s->clusters_facing_away, s->vertices);
@@ -463,32 +393,44 @@ static int write_show(render_t *r, const char *name) {
     return 0;
 }
 
+/* The frame by way of the panel: what is seen, and its memory as it lies. */
+static int draw_panel(render_t *r, sim_picture_t *picture, sim_picture_t *glass) {
+    memset(&r->bus.counts, 0, sizeof r->bus.counts);
+    const int result = tuile_stream_frame(r->renderer, &r->view.scene, &r->display, &r->stats);
+    if (result) { return result; }
+    r->wire_bytes = r->bus.counts.command_bytes + r->bus.counts.data_bytes;
+    r->frame_ns = r->bus.counts.wire_ns + r->bus.counts.gap_ns;
+    return sim_bus_picture(&r->bus, (unsigned)r->rotate, picture, &r->error) || r->chip->glass(r->chip, glass, &r->error);
+}
+
+/* The frame in a format that the panel does not take. */
+static int draw_decoded(render_t *r, sim_picture_t *picture, sim_picture_t *glass) {
+    const int result = render_format_draw(r->renderer, &r->view.scene, picture, &r->stats, &r->wire_bytes, &r->error);
+    return result ? result : sim_picture_turn(picture, (int)r->rotate, glass, &r->error) != 0;
+}
+
 static int draw_frame(render_t *r, unsigned frame) {
     sim_picture_t picture = {0}, glass = {0};
     char name[4096], hash[24] = "";
     view_frame(&r->view, frame);
-    memset(&r->bus.counts, 0, sizeof r->bus.counts);
-    const int result = tuile_stream_frame(r->renderer, &r->view.scene, &r->display, &r->stats);
+    const int result = (render_format_on_panel(&r->format) ? draw_panel : draw_decoded)(r, &picture, &glass);
+    if (result > 0) { return command_fail("%s", r->error.text); }
     if (result) {
         if (result == TUILE_ERROR_MEMORY) {
             return command_fail("frame %u: --memory: %u bytes are too few for this method; %zu would do", frame,
                                 r->stats.size_bytes, tuile_wanted(r->renderer));
         }
-        const char *detail = r->bus.error.text[0] ? r->bus.error.text : r->chip->fault.text;
+        const char *detail = r->bus.error.text[0] ? r->bus.error.text : r->error.text[0] ? r->error.text : r->chip->fault.text;
         return command_fail("frame %u: %s%s%s", frame, tuile_stream_error_text(result), detail[0] ? ": " : "", detail);
     }
-    r->wire_bytes = r->bus.counts.command_bytes + r->bus.counts.data_bytes;
-    r->frame_ns = r->bus.counts.wire_ns + r->bus.counts.gap_ns;
     r->passes_max = r->stats.passes > r->passes_max ? r->stats.passes : r->passes_max;
     r->peak_bytes = r->stats.peak_bytes > r->peak_bytes ? r->stats.peak_bytes : r->peak_bytes;
-    if (sim_bus_picture(&r->bus, (unsigned)r->rotate, &picture, &r->error) != 0) { return command_fail("%s", r->error.text); }
-    if (r->chip->glass(r->chip, &glass, &r->error) != 0) { return command_fail("%s", r->error.text); }
     (void)snprintf(hash, sizeof hash, "%016llx", (unsigned long long)panel_hash(&glass));
     sim_picture_free(&glass);
     if (r->hash) { (void)printf("frame %u %s\n", frame, hash); }
     int code = 0;
     if (r->out) {
-        frame_name(name, sizeof name, r->out, frame);
+        render_value_frame_name(name, sizeof name, r->out, frame);
         if (r->has_show) {
             code = write_show(r, name);
         } else if (sim_picture_write(&picture, name, &r->error) != 0) {
@@ -536,10 +478,11 @@ static int run(render_t *r) {
     }
     if (code) { return code; }
     if (r->out || r->sheet || r->report || !(r->hash || r->pick || r->ids)) {
-        (void)printf("%s: %u faces; memory given %u, least %u, used %u bytes, %u pass%s; %u tiles, %llu bytes on the wire; the bus "
-                     "allows %.1f fps\n",
+        char bus[64] = "";
+        if (r->frame_ns) { (void)snprintf(bus, sizeof bus, "; the bus allows %.1f fps", 1e9 / (double)r->frame_ns); }
+        (void)printf("%s: %u faces; memory given %u, least %u, used %u bytes, %u pass%s; %u tiles, %llu bytes on the wire%s\n",
                      r->model_path, r->stats.faces, r->stats.size_bytes, r->stats.least_bytes, r->peak_bytes, r->passes_max,
-                     r->passes_max == 1 ? "" : "es", r->stats.tiles, (unsigned long long)r->wire_bytes, 1e9 / (double)r->frame_ns);
+                     r->passes_max == 1 ? "" : "es", r->stats.tiles, (unsigned long long)r->wire_bytes, bus);
     }
     return command_finish();
 }

@@ -379,6 +379,9 @@ int show_draw(const show_view_t *view, const tuile_config_t *config, const tuile
     if (!status && !block) { status = sim_fail(error, "out of memory"); }
     c.method = (uint8_t)view->method;
     c.trace = &trace;
+    c.aa = TUILE_AA_NONE;
+    c.dither = false;
+    c.effects = 0;
     c.format = TUILE_FACE_IDS;
     if (!status) { status = draw(&w, &c, scene, block, &stats, error); }
     c.format = TUILE_RGB565_LE;

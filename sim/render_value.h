@@ -1,0 +1,22 @@
+/* Values of tuile render's options that need more than a number. False and a message when they are wrong. */
+#ifndef SIM_RENDER_VALUE_H
+#define SIM_RENDER_VALUE_H
+
+#include "options.h"
+
+/* RRGGBB */
+bool render_value_background(options_t *options, uint8_t background[3]);
+
+/* "single,box": tuile_warnock_t, or-ed. */
+bool render_value_warnock(options_t *options, uint8_t *variants);
+
+/* "62.5M" */
+bool render_value_clock(options_t *options, size_t *hz);
+
+/* An output name may hold one %d, with a width; without it all frames would have the same name. */
+bool render_value_pattern(const char *option, const char *name, long frames);
+
+/* Such a name, with the frame's number. */
+void render_value_frame_name(char *name, size_t size, const char *pattern, unsigned frame);
+
+#endif
