@@ -18,7 +18,7 @@ WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wpointer-arith -W
 CFLAGS_CORE := -std=c11 -O2 -g -ffreestanding -fno-pie $(WARN) # as on a board: constants with pointers are read-only
 LDFLAGS := -no-pie
 CFLAGS_HOST := -std=c11 -O2 -g -D_GNU_SOURCE $(WARN)
-LIBS_SIM := -lassimp -lmeshoptimizer -lpng -lm
+LIBS_SIM := -lassimp -lmeshoptimizer -lpng -ljpeg -lm
 LIBS_TEST := -lcmocka
 ifeq ($(VARIANT),asan)
 CFLAGS_CORE += -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
@@ -66,7 +66,7 @@ help: ## this list
 
 all: $(TUILE) ## build the simulator, build/tuile
 
-$(BUILD)/need/sim: ; $(call need,libassimp-dev libmeshoptimizer-dev libpng-dev,model import + simplification + pictures)
+$(BUILD)/need/sim: ; $(call need,libassimp-dev libmeshoptimizer-dev libpng-dev libjpeg62-turbo-dev,model import + simplification + pictures)
 $(BUILD)/need/test: ; $(call need,libcmocka-dev,tests)
 $(BUILD)/need/clang: ; $(call need,clang libclang-rt-14-dev,a second compiler)
 $(BUILD)/need/bench: ; $(call need,valgrind,instruction counts)

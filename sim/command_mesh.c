@@ -1,14 +1,16 @@
 /* tuile mesh: compile a model for flash. */
 #include "commands.h"
+#include "../raster/geometry/model.h"
 #include "mesh/mesh.h"
 #include "options.h"
+#include "render_mesh.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const char usage[] =
-    "Usage: tuile mesh IN -o OUT.c|OUT.tuile [--name NAME] [--max-faces N] [--triangles] [--tree]\n"
+    "Usage: tuile mesh IN -o OUT.c|OUT.tuile [options]\n"
     "\n"
     "Reads a model (OBJ, glTF, PLY, STL, 3DS, Collada and what else Assimp knows) and writes it quantised, clustered and checked,\n"
     "as a C file with one const object for flash or as a .tuile file with the same bytes.\n"
@@ -32,6 +34,30 @@ static void tree_report_print(const mesh_tree_report_t *tree) {
                  tree->depth, tree->size_bytes);
     (void)printf("      not flat on the grid %zu, corners inserted along cuts %zu, pieces without area dropped %zu\n",
                  tree->non_planar, tree->seam_corners, tree->dropped);
+}
+
+/* What stands of surfaces in the model: textures with the materials that have them, vertex colours, a second key frame. */
+static void surface_report_print(const uint8_t *bytes, size_t size_bytes) {
+    static const char *const formats[] = {"rgb565", "palette8", "palette4", "grey8", "argb4444"};
+    tuile_model_t model;
+    if (tuile_model_open(&model, bytes, size_bytes) != TUILE_OK) { return; }
+    for (uint32_t t = 0; t < model.texture_count; t++) {
+        const tuile_texture_t texture = tuile_model_texture(&model, t);
+        const size_t palette = 2u * model_palette_entries(texture.format);
+        (void)printf("texture %u: %ux%u %s, levels %u, %s%s%s, %zu bytes, materials", t, texture.width, texture.height,
+                     formats[texture.format], texture.levels, texture.flags & TUILE_TEXTURE_CLAMP_S ? "s clamped" : "s repeated",
+                     texture.flags & TUILE_TEXTURE_CLAMP_T ? ", t clamped" : ", t repeated",
+                     texture.flags & TUILE_TEXTURE_KEY ? ", keyed" : "",
+                     palette + model_texture_bytes(texture.format, texture.width, texture.height, texture.levels));
+        for (uint32_t m = 0; m < model.material_count; m++) {
+            const tuile_material_t material = tuile_model_material(&model, m);
+            if (material.texture == t) { (void)printf(" %u (uv_bits %u)", m, material.uv_bits); }
+        }
+        (void)printf("\n");
+    }
+    if (model.texcoords) { (void)printf("texture coordinates %u bytes\n", 4 * model.vertex_count); }
+    if (model.colours) { (void)printf("vertex colours %u bytes\n", 4 * model.vertex_count); }
+    if (model.morph_positions) { (void)printf("second key frame %u bytes\n", 9 * model.vertex_count + 3 * model.face_count); }
 }
 
 /* In steps of 1/1000. context: the last one shown. */
@@ -68,8 +94,11 @@ int command_mesh(int count, char **arguments) {
             compile.triangles = true;
         } else if (strcmp(argument, "--tree") == 0) {
             compile.tree = true;
+        } else if (render_mesh_option(&compile, &options, argument)) {
+            continue;
         } else if (strcmp(argument, "--help") == 0) {
             (void)fputs(usage, stdout);
+            (void)fputs(render_mesh_usage, stdout);
             return command_finish();
         } else {
             options_unknown(&options);
@@ -78,16 +107,21 @@ int command_mesh(int count, char **arguments) {
     if (options.failed) { return EXIT_USAGE; }
     if (!in || !out) {
         (void)fputs(usage, stderr);
+        (void)fputs(render_mesh_usage, stderr);
         return EXIT_USAGE;
     }
     if (mesh_load(in, (size_t)max_faces, &compile, &bytes, &size_bytes, &report, &error) != 0) {
         return command_fail("%s", error.text);
     }
-    const int failed = mesh_write(bytes, size_bytes, out, name, &error);
-    free(bytes);
-    if (failed) { return command_fail("%s", error.text); }
+    render_mesh_warn(&report);
+    if (mesh_write(bytes, size_bytes, out, name, &error)) {
+        free(bytes);
+        return command_fail("%s", error.text);
+    }
     (void)printf("%s: ", out);
     mesh_report_print(&report);
     if (report.tree.size_bytes) { tree_report_print(&report.tree); }
+    surface_report_print(bytes, size_bytes);
+    free(bytes);
     return command_finish();
 }

@@ -9,6 +9,7 @@
 #include "options.h"
 #include "output.h"
 #include "render_format.h"
+#include "render_mesh.h"
 #include "render_value.h"
 #include "sheet.h"
 #include "show.h"
@@ -55,6 +56,12 @@ static const char usage[] =
     "  --pick I,J               prints the face seen at a pixel and the point on it in model units\n"
     "  --hash                   prints a hash of the panel's memory for each frame\n"
     "  --report FILE.json       every figure of every frame\n";
+
+static void print_usage(FILE *file) {
+    (void)fputs(usage, file);
+    (void)fputs(render_mesh_usage, file);
+    (void)fputs(render_format_usage, file);
+}
 
 typedef struct render {
     const char *model_path, *out, *sheet, *ids, *report;
@@ -178,17 +185,16 @@ static int parse(render_t *r, int count, char **arguments) {
         } else if (strcmp(argument, "--hash") == 0) {
             r->hash = true;
         } else if (strcmp(argument, "--help") == 0) {
-            (void)fputs(usage, stdout);
-            (void)fputs(render_format_usage, stdout);
+            print_usage(stdout);
             return -1;
-        } else if (!render_format_option(&r->format, &options, argument)) {
+        } else if (!render_format_option(&r->format, &options, argument) &&
+                   !render_mesh_option(&r->mesh_options, &options, argument)) {
             options_unknown(&options);
         }
     }
     if (options.failed) { return EXIT_USAGE; }
     if (!r->model_path) {
-        (void)fputs(usage, stderr);
-        (void)fputs(render_format_usage, stderr);
+        print_usage(stderr);
         return EXIT_USAGE;
     }
     if (r->has_show && !r->out) { return command_fail("--show: where to? Add --out FILE.png"), EXIT_USAGE; }
@@ -236,6 +242,7 @@ static int set_up(render_t *r) {
     if (mesh_load(r->model_path, (size_t)r->max_faces, &r->mesh_options, &r->bytes, &size_bytes, &report, &r->error) != 0) {
         return command_fail("%s", r->error.text);
     }
+    render_mesh_warn(&report);
     int result = tuile_model_open(&r->model, r->bytes, size_bytes);
     if (result) { return command_fail("%s: %s", r->model_path, tuile_error_text(result)); }
 

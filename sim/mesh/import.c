@@ -1,11 +1,8 @@
 /* Model files through Assimp's C API, without any of its post-processing: polygons stay polygons and faces stay in order. */
-#include "stages.h"
+#include "import.h"
 
 #include <assimp/cimport.h>
-#include <assimp/material.h>
-#include <assimp/scene.h>
 #include <math.h>
-#include <meshoptimizer.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -36,16 +33,6 @@ static void catch_log(const char *message, char *user) {
 }
 
 /* ---- collecting --------------------------------------------------------------------------------------------- */
-
-typedef struct collector {
-    const char *path;
-    const struct aiScene *scene;
-    bool flat_normals; /* those of the file are of facets: of no use for smooth shading */
-    mesh_t mesh;
-    size_t positions, normals, corners, corner_normals, faces, colours; /* capacities */
-    uint8_t (*colour)[3];                                               /* of each face */
-    sim_error_t *error;
-} collector_t;
 
 typedef struct matrix {
     double m[3][4];
@@ -97,17 +84,52 @@ static bool transform_normal(const matrix_t *matrix, double sign, const struct a
     return true;
 }
 
-static int no_memory(const collector_t *c) {
+int import_no_memory(const collector_t *c) {
     return sim_fail(c->error, "%s: out of memory after %zu faces; export a smaller model", c->path, c->mesh.face_count);
 }
 
+/* Of the channel that the material names, else of the first; NULL: none. */
+static const struct aiVector3D *texcoords_of(const struct aiMesh *from, const import_material_t *material) {
+    const unsigned channel = material->channel < AI_MAX_NUMBER_OF_TEXTURECOORDS ? material->channel : 0;
+    return from->mTextureCoords[channel] ? from->mTextureCoords[channel] : from->mTextureCoords[0];
+}
+
+/* Texture coordinates and colours of vertices whose places are collected. Assimp's v goes upwards. */
+static void collect_varying(collector_t *c, const struct aiMesh *from, const import_material_t *material) {
+    const bool textured = material->surface.texture != TUILE_NO_TEXTURE;
+    const struct aiVector3D *texcoords = textured ? texcoords_of(from, material) : NULL;
+    const struct aiColor4D *colours = from->mColors[0];
+    if (textured && !texcoords && from->mNumFaces) {
+        mesh_warn(&c->mesh,
+                  "mesh \"%.60s\": its material \"%s\" has a texture, but it has no texture coordinates; it is drawn without",
+                  from->mName.data, material->name);
+    }
+    for (unsigned v = 0; v < from->mNumVertices; v++) {
+        double *texcoord = c->texcoords[c->mesh.position_count + v];
+        uint8_t *tint = c->tints[c->mesh.position_count + v];
+        texcoord[0] = texcoords ? (double)texcoords[v].x + 0.0 : 0;
+        texcoord[1] = texcoords ? 1 - (double)texcoords[v].y : 0;
+        memset(tint, 255, sizeof *c->tints);
+        if (colours) {
+            const double channels[4] = {(double)colours[v].r, (double)colours[v].g, (double)colours[v].b, (double)colours[v].a};
+            for (int k = 0; k < 4; k++) {
+                tint[k] = import_byte(channels[k]);
+            }
+        }
+    }
+    c->textured = c->textured || texcoords;
+    c->tinted = c->tinted || colours;
+}
+
 /* Appends the vertices of one instance of a mesh; what its indices have to be raised by is the count before. */
-static int collect_vertices(collector_t *c, const struct aiMesh *from, const matrix_t *matrix) {
+static int collect_vertices(collector_t *c, const struct aiMesh *from, const matrix_t *matrix, const import_material_t *material) {
     mesh_t *mesh = &c->mesh;
     size_t count = mesh->position_count + from->mNumVertices;
     if (count >= UINT32_MAX || !mesh_reserve(&mesh->positions, &c->positions, count, sizeof *mesh->positions) ||
-        !mesh_reserve(&mesh->normals, &c->normals, count, sizeof *mesh->normals)) {
-        return no_memory(c);
+        !mesh_reserve(&mesh->normals, &c->normals, count, sizeof *mesh->normals) ||
+        !mesh_reserve(&c->texcoords, &c->texcoord_room, count, sizeof *c->texcoords) ||
+        !mesh_reserve(&c->tints, &c->tint_room, count, sizeof *c->tints)) {
+        return import_no_memory(c);
     }
     bool lit = from->mNormals && !c->flat_normals;
     double sign = determinant(matrix) < 0 ? -1 : 1;
@@ -128,20 +150,9 @@ static int collect_vertices(collector_t *c, const struct aiMesh *from, const mat
             memset(normal, 0, sizeof *mesh->normals); /* marks it as missing */
         }
     }
+    collect_varying(c, from, material);
     mesh->position_count = count;
     return 0;
-}
-
-static uint8_t unit_to_byte(double value) { return (uint8_t)(value >= 1 ? 255 : value > 0 ? value * 255 + 0.5 : 0); }
-
-static void material_colour(const struct aiScene *scene, const struct aiMesh *from, uint8_t colour[3]) {
-    struct aiColor4D diffuse = {0.8F, 0.8F, 0.8F, 1};
-    if (from->mMaterialIndex < scene->mNumMaterials) {
-        (void)aiGetMaterialColor(scene->mMaterials[from->mMaterialIndex], AI_MATKEY_COLOR_DIFFUSE, &diffuse);
-    }
-    colour[0] = unit_to_byte((double)diffuse.r);
-    colour[1] = unit_to_byte((double)diffuse.g);
-    colour[2] = unit_to_byte((double)diffuse.b);
 }
 
 /* Vertex colours take the place of the material's: files that have them rarely mean the product. */
@@ -154,26 +165,30 @@ static void mean_colour(const struct aiMesh *from, const struct aiFace *face, ui
         sum[2] += (double)corner->b;
     }
     for (int k = 0; k < 3; k++) {
-        colour[k] = unit_to_byte(sum[k] / face->mNumIndices);
+        colour[k] = import_byte(sum[k] / face->mNumIndices);
     }
 }
 
 static int collect_face(collector_t *c, const struct aiMesh *from, const struct aiFace *face, size_t base, bool mirrored,
-                        const uint8_t colour[3]) {
+                        const import_material_t *material) {
     mesh_t *mesh = &c->mesh;
     unsigned count = face->mNumIndices;
     if (!mesh_reserve(&mesh->corners, &c->corners, mesh->corner_count + count, sizeof *mesh->corners) ||
         !mesh_reserve(&mesh->faces, &c->faces, mesh->face_count + 1, sizeof *mesh->faces) ||
         !mesh_reserve(&c->colour, &c->colours, mesh->face_count + 1, sizeof *c->colour) ||
+        !mesh_reserve(&c->material, &c->face_materials, mesh->face_count + 1, sizeof *c->material) ||
         mesh->corner_count + count >= UINT32_MAX) {
-        return no_memory(c);
+        return import_no_memory(c);
     }
     for (unsigned i = 0; i < count; i++) { /* a reflection turns the winding; the first corner stays the first */
         unsigned from_corner = mirrored && i ? count - i : i;
         mesh->corners[mesh->corner_count + i] = (uint32_t)(base + face->mIndices[from_corner]);
     }
-    memcpy(c->colour[mesh->face_count], colour, 3);
+    memcpy(c->colour[mesh->face_count], material->colour, 3);
     if (from->mColors[0]) { mean_colour(from, face, c->colour[mesh->face_count]); }
+    c->material[mesh->face_count] = 4 * (uint32_t)(material - c->materials);
+    if (from->mColors[0]) { c->material[mesh->face_count] |= IMPORT_TINTED; }
+    if (!texcoords_of(from, material)) { c->material[mesh->face_count] |= IMPORT_BARE; }
     mesh->faces[mesh->face_count++] =
         (mesh_face_t){.first = (uint32_t)mesh->corner_count, .count = count, .source = (uint32_t)(mesh->source_face_count - 1)};
     mesh->corner_count += count;
@@ -182,14 +197,13 @@ static int collect_face(collector_t *c, const struct aiMesh *from, const struct 
 
 static int collect_mesh(collector_t *c, const struct aiMesh *from, const matrix_t *matrix) {
     const unsigned loose = aiPrimitiveType_POINT | aiPrimitiveType_LINE;
-    uint8_t colour[3];
     size_t base = c->mesh.position_count;
     bool mirrored = determinant(matrix) < 0;
     if (from->mNumFaces && !from->mVertices) {
         return sim_fail(c->error, "%s: mesh \"%.60s\" has faces but no vertices; export it again", c->path, from->mName.data);
     }
-    if (collect_vertices(c, from, matrix)) { return -1; }
-    material_colour(c->scene, from, colour);
+    const import_material_t *material = import_material(c, from->mMaterialIndex);
+    if (!material || collect_vertices(c, from, matrix, material)) { return -1; }
     for (unsigned f = 0; f < from->mNumFaces; f++) {
         const struct aiFace *face = &from->mFaces[f];
         for (unsigned i = 0; i < face->mNumIndices; i++) {
@@ -207,10 +221,10 @@ static int collect_mesh(collector_t *c, const struct aiMesh *from, const matrix_
             c->mesh.loose_count++;
             continue;
         }
-        if (c->mesh.source_face_count++ >= UINT32_MAX - 1) { return no_memory(c); }
+        if (c->mesh.source_face_count++ >= UINT32_MAX - 1) { return import_no_memory(c); }
         if (face->mNumIndices < 3) {
             c->mesh.skipped_count++;
-        } else if (collect_face(c, from, face, base, mirrored, colour)) {
+        } else if (collect_face(c, from, face, base, mirrored, material)) {
             return -1;
         }
     }
@@ -235,72 +249,6 @@ static int collect_node(collector_t *c, const struct aiNode *node, const matrix_
     return 0;
 }
 
-/* ---- joining ------------------------------------------------------------------------------------------------ */
-
-static bool distinct_corners(const mesh_t *mesh, const mesh_face_t *face) {
-    const uint32_t *corner = mesh->corners + face->first;
-    uint32_t second = corner[0];
-    for (uint32_t i = 1; i < face->count; i++) {
-        if (corner[i] != corner[0] && second == corner[0]) {
-            second = corner[i];
-        } else if (corner[i] != corner[0] && corner[i] != second) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* Joins vertices at equal positions, drops the faces that have fewer than three of them, and sets up materials. */
-static int join(collector_t *c) {
-    mesh_t *mesh = &c->mesh;
-    uint32_t *remap = mesh_array(mesh->position_count, sizeof *remap);
-    mesh->corner_normals = mesh_array(mesh->corner_count, sizeof *mesh->corner_normals);
-    if (!remap || !mesh->corner_normals) {
-        free(remap);
-        return no_memory(c);
-    }
-    size_t count = meshopt_generateVertexRemap(remap, NULL, mesh->position_count, mesh->positions, mesh->position_count,
-                                               sizeof *mesh->positions);
-    for (size_t i = 0; i < mesh->corner_count; i++) {
-        const double *normal = mesh->normals[mesh->corners[i]];
-        bool missing = normal[0] == 0 && normal[1] == 0 && normal[2] == 0;
-        mesh->corner_normals[i] = missing ? MESH_NO_NORMAL : mesh->corners[i];
-        mesh->corners[i] = remap[mesh->corners[i]];
-    }
-    for (size_t v = 0; v < mesh->position_count; v++) { /* in place: a position never moves up */
-        memmove(mesh->positions[remap[v]], mesh->positions[v], sizeof *mesh->positions);
-    }
-    free(remap);
-    mesh->normal_count = mesh->position_count;
-    mesh->position_count = count;
-    size_t kept = 0;
-    for (size_t f = 0; f < mesh->face_count; f++) {
-        if (distinct_corners(mesh, &mesh->faces[f])) {
-            memmove(c->colour[kept], c->colour[f], sizeof *c->colour);
-            mesh->faces[kept++] = mesh->faces[f];
-        }
-    }
-    mesh->skipped_count += mesh->face_count - kept;
-    mesh->face_count = kept;
-    return 0;
-}
-
-static int paint(collector_t *c) {
-    mesh_t *mesh = &c->mesh;
-    uint32_t *index = mesh_array(mesh->face_count, sizeof *index);
-    mesh->materials = mesh_array(MESH_MATERIALS_MAX, sizeof *mesh->materials);
-    if (!index || !mesh->materials ||
-        mesh_palette((const uint8_t(*)[3])c->colour, mesh->face_count, mesh->materials, &mesh->material_count, index)) {
-        free(index);
-        return no_memory(c);
-    }
-    for (size_t f = 0; f < mesh->face_count; f++) {
-        mesh->faces[f].material = index[f];
-    }
-    free(index);
-    return 0;
-}
-
 static int collect(collector_t *c) {
     const matrix_t identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     if (c->scene->mRootNode && collect_node(c, c->scene->mRootNode, &identity, 0)) { return -1; }
@@ -308,45 +256,68 @@ static int collect(collector_t *c) {
     for (unsigned m = 0; bare && m < c->scene->mNumMeshes; m++) {
         if (collect_mesh(c, c->scene->mMeshes[m], &identity)) { return -1; }
     }
-    if (c->mesh.source_face_count && join(c)) { return -1; }
-    if (c->mesh.face_count == 0) {
-        return sim_fail(c->error, "%s: no face with an area (%zu degenerate faces, %zu points and lines); nothing to draw", c->path,
-                        c->mesh.skipped_count, c->mesh.loose_count);
-    }
-    return paint(c) ? -1 : mesh_make_normals(&c->mesh, false, c->error);
+    return 0;
 }
 
-int mesh_import(mesh_t *mesh, const char *path, sim_error_t *error) {
+/* ---- files -------------------------------------------------------------------------------------------------- */
+
+/* Opens and collects; the collector is to be closed in any case. */
+static int collector_read(collector_t *c) {
     char *text;
     size_t size_bytes;
-    memset(mesh, 0, sizeof *mesh);
-    if (mesh_read_file(path, &text, &size_bytes, error)) { return -1; }
-    int status = mesh_check_text(path, text, size_bytes, error);
+    if (mesh_read_file(c->path, &text, &size_bytes, c->error)) { return -1; }
+    int status = mesh_check_text(c->path, text, size_bytes, c->error);
     free(text);
     if (status) { return -1; }
     log_catch_t caught = {{0}};
     struct aiLogStream stream = {catch_log, (char *)&caught};
     aiAttachLogStream(&stream); /* also keeps Assimp's messages off the console */
-    const struct aiScene *scene = aiImportFile(path, 0);
+    c->scene = aiImportFile(c->path, 0);
     (void)aiDetachLogStream(&stream);
-    if (!scene) {
+    if (!c->scene) {
         char reason[301];
         (void)snprintf(reason, sizeof reason, "%s", aiGetErrorString());
         for (char *p = reason; (p = strpbrk(p, "\r\n"));) { /* some run over several lines */
             *p = ' ';
         }
-        return sim_fail(error, "%s: %s; export it again or convert it to OBJ", path, reason);
+        return sim_fail(c->error, "%s: %s; export it again or convert it to OBJ", c->path, reason);
     }
-    const char *dot = strrchr(path, '.');
-    collector_t collector = {.path = path, .scene = scene, .flat_normals = dot && !strcasecmp(dot, ".stl"), .error = error};
-    status = caught.text[0] ? sim_fail(error, "%s: %.300s; the file is damaged, export it again", path, caught.text)
-                            : collect(&collector);
-    aiReleaseImport(scene);
-    free(collector.colour);
-    if (status) {
-        mesh_free(&collector.mesh);
-        return -1;
+    const char *dot = strrchr(c->path, '.');
+    c->flat_normals = dot && !strcasecmp(dot, ".stl");
+    return caught.text[0] ? sim_fail(c->error, "%s: %.300s; the file is damaged, export it again", c->path, caught.text)
+                          : collect(c);
+}
+
+static void collector_close(collector_t *c) {
+    if (c->scene) { aiReleaseImport(c->scene); }
+    free(c->texcoords);
+    free(c->tints);
+    free(c->colour);
+    free(c->material);
+    free(c->materials);
+    mesh_free(&c->mesh);
+}
+
+int mesh_import_with(mesh_t *mesh, const char *path, const mesh_options_t *options, sim_error_t *error) {
+    static const mesh_options_t defaults = {0};
+    mesh_options_t plain = options ? *options : defaults;
+    collector_t first = {.path = path, .options = options ? options : &defaults, .error = error};
+    plain.no_textures = true; /* of the second key frame only places count */
+    collector_t second = {.path = plain.morph_path, .options = &plain, .error = error};
+    memset(mesh, 0, sizeof *mesh);
+    int status = collector_read(&first);
+    if (!status && second.path) { status = collector_read(&second); }
+    if (!status) { status = import_join(&first, second.path ? &second : NULL); }
+    if (!status) {
+        *mesh = first.mesh;
+        memset(&first.mesh, 0, sizeof first.mesh);
     }
-    *mesh = collector.mesh;
-    return 0;
+    collector_close(&first);
+    collector_close(&second);
+    return status;
+}
+
+int mesh_import(mesh_t *mesh, const char *path, sim_error_t *error) {
+    static const mesh_options_t plain = {.no_textures = true, .vertex_colours = MESH_COLOURS_FACES};
+    return mesh_import_with(mesh, path, &plain, error);
 }

@@ -35,6 +35,10 @@ static int load_compiled(const char *path, size_t max_faces, const mesh_options_
     if (options->triangles && model.corners_max > 3) {
         return sim_fail(error, "%s: is compiled already and has polygons; compile it anew from its source for triangles", path);
     }
+    if (options->morph_path && !model.morph_positions) {
+        return sim_fail(error, "%s: is compiled already, without a second key frame; compile it anew from its source with --morph",
+                        path);
+    }
     if (options->tree && !model.tree) {
         return sim_fail(error,
                         "%s: is compiled already, without a display tree; make one from its source: tuile mesh SOURCE -o %s --tree",
@@ -56,7 +60,7 @@ static int load_source(const char *path, size_t max_faces, const mesh_options_t 
                        mesh_report_t *report, sim_error_t *error) {
     mesh_t mesh;
     mesh_report_t counts = {0};
-    if (mesh_import(&mesh, path, error)) { return -1; }
+    if (mesh_import_with(&mesh, path, options, error)) { return -1; }
     int status = 0;
     bool few = !max_faces || mesh.face_count <= max_faces;
     mesh_options_t plain = *options;
@@ -69,6 +73,7 @@ static int load_source(const char *path, size_t max_faces, const mesh_options_t 
         if (many) { status = mesh_simplify(&mesh, max_faces, error); }
         if (!status) { status = mesh_compile(&mesh, options, bytes, size_bytes, &counts, error); }
     }
+    memcpy(counts.warnings, mesh.warnings, sizeof counts.warnings);
     if (status && error) { /* the later stages do not know the file */
         sim_error_t inner = *error;
         (void)sim_fail(error, "%s: %.400s", path, inner.text);

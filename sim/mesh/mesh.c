@@ -37,11 +37,21 @@ static int check(const mesh_t *mesh, sim_error_t *error) {
             return sim_fail(error, "material %zu of the model has a texture that is not there", m);
         }
     }
+    if (mesh->morph.positions && (!mesh->normal_count || !mesh->morph.normals || !mesh->morph.corner_normals)) {
+        return sim_fail(error, "the model has a second key frame without normals, or a first one");
+    }
     for (size_t f = 0; f < mesh->face_count; f++) {
         const mesh_face_t *face = &mesh->faces[f];
         if (face->count < 3 || face->first > mesh->corner_count || face->count > mesh->corner_count - face->first ||
             face->material >= mesh->material_count || face->source >= mesh->source_face_count) {
             return sim_fail(error, "face %zu of the model has corners, a material or a number out of range", f);
+        }
+    }
+    for (size_t c = 0; mesh->morph.positions && c < mesh->corner_count; c++) {
+        const double *at = mesh->corners[c] < mesh->position_count ? mesh->morph.positions[mesh->corners[c]] : NULL;
+        if (!at || !isfinite(at[0]) || !isfinite(at[1]) || !isfinite(at[2]) ||
+            mesh->morph.corner_normals[c] >= mesh->morph.normal_count) {
+            return sim_fail(error, "corner %zu of the model is not finite in the second key frame, or has no normal there", c);
         }
     }
     for (size_t c = 0; c < mesh->corner_count; c++) {
@@ -101,6 +111,9 @@ static int compile(const mesh_t *mesh, const mesh_options_t *options, uint8_t **
                    sim_error_t *error) {
     compiling_t c = {.counts = {0}};
     size_t vertex_count = 0;
+    if (mesh->morph.positions && options->tree) {
+        return sim_fail(error, "a display tree holds for one key frame, and the model has two; leave the tree out");
+    }
     int status = solid_quantise(&c.solid, mesh, options, error);
     if (!status && options->tree) {
         status = compile_tree(&c, options, error);

@@ -60,21 +60,24 @@ typedef struct mesh {
     size_t source_face_count; /* faces that the importer delivered, skipped ones included */
     size_t skipped_count;     /* degenerate ones among them */
     size_t loose_count;       /* points and lines in the file: no faces, left out and not numbered */
+    char warnings[512];       /* lines for people; empty when there is nothing to tell */
 } mesh_t;
 
 /* Frees what mesh owns and clears it; a cleared mesh may be freed again. */
 void mesh_free(mesh_t *mesh);
 
-/* Reads a model file through Assimp. Polygons stay polygons, transforms of the node tree are applied, equal positions are
- * joined, every corner gets a normal, and faces are numbered in the order in which Assimp delivers them.
- * 0, or -1 and one line in error when the file is missing, empty, damaged, has a vertex that is not finite, an index out of range,
- * no faces, ... mesh is then cleared. Not for two threads at once: Assimp's log is global. */
-int mesh_import(mesh_t *mesh, const char *path, sim_error_t *error);
+/* How textures are stored; the rest is 1 + tuile_texel_t. AUTO: ARGB4444 for images with alpha, else PALETTE4 for at most 16
+ * colours, GREY8 where all is grey, PALETTE8 for at most 256 colours, RGB565. Colours are counted as RGB565 shows them. */
+typedef enum mesh_texels {
+    MESH_TEXELS_AUTO = 0,
+} mesh_texels_t;
 
-/* Triangulates and reduces to at most max_faces triangles (>= 1), which are numbered anew from 0 and get new normals. A mesh
- * that makes no more triangles than that is left as it is, polygons and all. -1 when it cannot be reduced so far: mesh is
- * then unchanged. */
-int mesh_simplify(mesh_t *mesh, size_t max_faces, sim_error_t *error);
+/* Vertex colours of the file: for each vertex, or as one mean for each face. */
+typedef enum mesh_vertex_colours {
+    MESH_COLOURS_AUTO = 0, /* for each vertex if they differ within a face, or in alpha */
+    MESH_COLOURS_VERTICES = 1,
+    MESH_COLOURS_FACES = 2,
+} mesh_vertex_colours_t;
 
 typedef struct mesh_options {
     bool keep_order;  /* faces stay in the order given (text scenes: ties are decided by it) */
@@ -84,10 +87,35 @@ typedef struct mesh_options {
     bool tree;        /* with a display tree: faces are cut, and lie in its order */
     bool two_sided;   /* faces are seen from both sides: those of a tree that look inwards are turned round, so that of coplanar
                          ones the first stays first */
+    bool no_textures; /* images are not looked for */
+    uint8_t vertex_colours; /* mesh_vertex_colours_t */
+    uint8_t texture_format; /* mesh_texels_t */
+    uint16_t texture_size;  /* texels across or down at most, 1 ... TUILE_TEXTURE_MAX: halved until they fit; 0 = as they are */
+    bool no_mips;           /* level 0 only */
+    bool bilinear;          /* textured materials are to be interpolated */
+    bool texture_keyed;     /* texels of this colour are not there: */
+    uint8_t texture_key[3]; /* red, green, blue */
+    const char *morph_path; /* a model of the same faces as second key frame; NULL = none. Not with a tree */
     /* How far a tree is: `done` of `of` faces, which grow more as faces are cut. NULL = nobody asks. */
     void (*progress)(void *context, size_t done, size_t of);
     void *progress_context;
 } mesh_options_t;
+
+/* Reads a model file through Assimp. Polygons stay polygons, transforms of the node tree are applied, equal positions are
+ * joined, every corner gets a normal, and faces are numbered in the order in which Assimp delivers them.
+ * 0, or -1 and one line in error when the file is missing, empty, damaged, has a vertex that is not finite, an index out of range,
+ * no faces, ... mesh is then cleared. Not for two threads at once: Assimp's log is global. */
+int mesh_import(mesh_t *mesh, const char *path, sim_error_t *error);
+
+/* The same with textures, vertex colours and a second key frame, as options say (NULL = all zero); mesh_import is without. An image
+ * that is missing or broken, and texture coordinates out of range are errors. What was left out besides is told in
+ * mesh->warnings. */
+int mesh_import_with(mesh_t *mesh, const char *path, const mesh_options_t *options, sim_error_t *error);
+
+/* Triangulates and reduces to at most max_faces triangles (>= 1), which are numbered anew from 0 and get new normals. A mesh
+ * that makes no more triangles than that is left as it is, polygons and all. -1 when it cannot be reduced so far: mesh is
+ * then unchanged. */
+int mesh_simplify(mesh_t *mesh, size_t max_faces, sim_error_t *error);
 
 typedef struct mesh_tree_report {
     size_t faces_in, faces_out;
@@ -110,6 +138,7 @@ typedef struct mesh_report {
     size_t clusters;
     size_t size_bytes;
     mesh_tree_report_t tree;   /* zeros without a tree, and of one that was loaded */
+    char warnings[512];        /* lines for people, of import and simplification */
     double quantisation_error; /* largest distance of a vertex from its quantised place, model units; 0 = exact */
 } mesh_report_t;
 

@@ -17,6 +17,12 @@ static inline void *mesh_array(size_t count, size_t item_bytes) { return calloc(
 /* array.c: count items of item_bytes; *capacity grows by doubling. False when memory is short: *array is then as it was. */
 bool mesh_reserve(void *array, size_t *capacity, size_t count, size_t item_bytes);
 
+/* Adds a line to mesh->warnings; what does not fit is left out (import_material.c). */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void mesh_warn(mesh_t *mesh, const char *format, ...);
+
 /* ---- files (check.c) --------------------------------------------------------------------------------------- */
 
 /* The whole file with a NUL behind it, malloc'ed. Missing, a folder, unreadable and empty files are errors. */
@@ -51,6 +57,10 @@ bool mesh_face_affine(const mesh_t *mesh, const mesh_face_t *face);
 /* At most MESH_MATERIALS_MAX colours for all, in order of first use; index[i] is the one of colours[i]. 0, or -1 without memory.
  */
 int mesh_palette(const uint8_t (*colours)[3], size_t count, uint8_t (*palette)[3], size_t *palette_count, uint32_t *index);
+
+/* The same for red, green, blue and alpha, and at most `most` entries, 1 ... MESH_MATERIALS_MAX. count >= 1. */
+int mesh_palette_of(const uint8_t (*colours)[4], size_t count, size_t most, uint8_t (*palette)[4], size_t *palette_count,
+                    uint32_t *index);
 
 /* ---- triangulate.c ----------------------------------------------------------------------------------------- */
 
