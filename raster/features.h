@@ -13,6 +13,7 @@
 #define FEATURE_LAYERS 16  /* translucent faces, sprites */
 #define FEATURE_LINES 32   /* lines, edges of faces */
 #define FEATURE_RESOLVE 64 /* formats that are not drawn in wire bytes, dithering, anti-aliasing */
+#define FEATURE_MORPH 128  /* instances between two key frames */
 
 #define TUILE_HAS(feature) (((TUILE_FEATURES) & (FEATURE_##feature)) != 0)
 

@@ -172,7 +172,7 @@ typedef struct tuile_instance {
     tuile_pose_t pose;
     bool two_sided; /* draw back faces too, lit as front faces */
     const tuile_material_t *materials; /* material_count of them in the place of the model's own; NULL: the model's */
-    uint16_t morph;                    /* how far towards the second key frame, 0 ... TUILE_MORPH_ONE; 0 for models without one */
+    uint16_t morph; /* how far towards the second key frame, 0 ... TUILE_MORPH_ONE; 0 for models without one. See TUILE_MORPH_BYTES */
 } tuile_instance_t;
 
 #define TUILE_MORPH_ONE 32768u
@@ -453,6 +453,11 @@ typedef struct tuile_config {
           ? TUILE_NUMBER_BYTES(tile_w, tile_h, 1u << (aa)) + TUILE_SURFACE_BYTES(cluster_vertices)                 \
           : (size_t)0))
 
+/* What a frame with an instance whose morph is not 0 takes besides: to be added. vertices and faces: of the largest cluster of the
+ * models that morph; `tuile mesh` makes clusters of at most TUILE_MORPH_FACES faces. */
+#define TUILE_MORPH_FACES 128u
+#define TUILE_MORPH_BYTES(vertices, faces) TUILE_ALIGN8(12u * (vertices) + 3u * (faces))
+
 typedef struct tuile tuile_t;
 
 /* Lays a renderer out in block, which must be 8-byte aligned and outlive it. Nothing else is ever written but the block.
@@ -516,6 +521,8 @@ typedef struct tuile_stats {
     uint32_t splits;           /* and cut because they cross or overlap in a cycle */
     uint32_t nodes;            /* tree: nodes visited */
     uint32_t instances_sorted; /* tree: instances that no plane separates from one another, drawn by the painter's method */
+    uint32_t instances;         /* looked at */
+    uint32_t instances_outside; /* dropped whole: outside the window, near or far plane */
     uint32_t size_bytes;       /* the block */
     uint32_t least_bytes;      /* the least block for this configuration */
     uint32_t peak_bytes;       /* the block that would have given the same passes */

@@ -3,6 +3,8 @@
 
 #include "frame.h"
 
+#include "../features.h"
+
 /* Vertices that still fit below the records. */
 uint32_t frame_slots_left(const tuile_t *t) {
     const uint8_t *low = t->arena_end - (size_t)t->record_count * t->record_bytes;
@@ -11,7 +13,6 @@ uint32_t frame_slots_left(const tuile_t *t) {
 }
 
 int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster) {
-    const tuile_model_t *model = t->instance->model;
     const unsigned vertices = bytes[CLUSTER_AT_VERTEX_COUNT], faces = model_u16(bytes + CLUSTER_AT_FACE_COUNT);
     const uint32_t first_vertex = model_u32(bytes + CLUSTER_AT_FIRST_VERTEX);
 
@@ -31,10 +32,9 @@ int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster)
             (source_slot_t){.first_vertex = first_vertex, .instance = t->instance_number};
     }
     bin_cluster_at(t, bytes, t->vertex_count + ahead, cluster);
-    cluster->any_outside =
-        vertex_stage(&t->transform, cluster->positions,
-                     t->config.shade == TUILE_FLAT ? NULL : (const int8_t *)model->normals + 3 * (size_t)first_vertex, vertices,
-                     cluster->vertices);
+    if (TUILE_HAS(MORPH) && TUILE_UNLIKELY(t->instance->morph != 0)) { frame_morph_cluster(t, cluster); }
+    cluster->any_outside = vertex_stage(&t->transform, cluster->positions, t->config.shade == TUILE_FLAT ? NULL : cluster->normals,
+                                        vertices, cluster->vertices);
     if (cluster->fractions) {
         cluster->any_outside |=
             vertex_fractions(&t->transform, cluster->positions, cluster->fractions, vertices, cluster->vertices);
@@ -49,11 +49,12 @@ int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster)
 void bin_cluster_at(const tuile_t *t, const uint8_t *bytes, uint32_t slot, frame_cluster_t *cluster) {
     const tuile_model_t *model = t->instance->model;
     const uint32_t first_face = model_u32(bytes + CLUSTER_AT_FIRST_FACE);
+    const size_t first = 3 * (size_t)model_u32(bytes + CLUSTER_AT_FIRST_VERTEX);
     cluster->bytes = bytes;
     cluster->faces = model->faces + model_u32(bytes + CLUSTER_AT_FACE_BYTES);
-    cluster->positions = (const int16_t *)(const void *)model->positions + 3 * (size_t)model_u32(bytes + CLUSTER_AT_FIRST_VERTEX);
-    cluster->fractions =
-        model->fractions ? (const int8_t *)model->fractions + 3 * (size_t)model_u32(bytes + CLUSTER_AT_FIRST_VERTEX) : NULL;
+    cluster->positions = (const int16_t *)(const void *)model->positions + first;
+    cluster->fractions = model->fractions ? (const int8_t *)model->fractions + first : NULL;
+    cluster->normals = (const int8_t *)model->normals + first;
     cluster->plane_normals = (const int8_t *)model->face_normals + 3 * (size_t)first_face;
     cluster->face_normals = t->config.shade == TUILE_FLAT ? cluster->plane_normals : NULL;
     cluster->vertices = t->vertices + slot;
@@ -76,13 +77,25 @@ static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
 void bin_begin(tuile_t *t) {
     t->stats.passes++;
     t->vertex_count = t->record_count = 0;
+    t->instance = NULL;
     for (uint32_t row = t->pass_first; row < t->pass_end; row++) {
         t->buckets[row] = RECORD_NONE;
     }
 }
 
+/* Ids of the faces of an instance begin where those of the one before it end. */
+static void count_faces_before(tuile_t *t, unsigned number) {
+    unsigned from = t->instance != NULL && t->instance_number < number ? t->instance_number : 0;
+    if (from == 0) { t->face_base = 0; }
+    for (; from < number; from++) {
+        t->face_base += t->scene->instances[from].model->face_count;
+    }
+}
+
 int bin_instance_open(tuile_t *t, unsigned number) {
     const tuile_scene_t *scene = t->scene;
+    count_faces_before(t, number);
+    t->stats.instances++;
     t->instance = &scene->instances[number];
     t->instance_number = (uint16_t)number;
     tuile_scene_t sampled = *scene;
@@ -90,18 +103,18 @@ int bin_instance_open(tuile_t *t, unsigned number) {
     const int error = transform_make(&t->transform, &sampled, t->instance, t->config.width, t->config.height);
     if (error) { return error; }
     transform_region(&t->transform, &t->region);
-    t->material_base = (uint16_t)frame_material_base(scene, number);
-    t->sides = t->instance->two_sided ? SIDE_FRONT | SIDE_BACK : SIDE_FRONT;
-    t->face_base = 0;
-    for (unsigned i = 0; i < number; i++) {
-        t->face_base += scene->instances[i].model->face_count;
+    if (cull_model_outside(&t->transform, t->instance->model)) {
+        t->stats.instances_outside++;
+        return BIN_CULLED;
     }
+    t->material_base = (uint16_t)(frame_counts_materials(t) ? frame_material_base(scene, number) : 0);
+    t->sides = t->instance->two_sided ? SIDE_FRONT | SIDE_BACK : SIDE_FRONT;
     return FRAME_OK;
 }
 
 int bin_instance(tuile_t *t, unsigned number) {
-    const int error = bin_instance_open(t, number);
-    if (error) { return error; }
+    const int opened = bin_instance_open(t, number);
+    if (opened != FRAME_OK) { return opened == BIN_CULLED ? FRAME_OK : opened; }
     const tuile_model_t *model = t->instance->model;
     for (uint32_t k = 0; k < model->cluster_count; k++) {
         const int result = bin_cluster(t, model->clusters + (size_t)k * MODEL_CLUSTER_BYTES);

@@ -182,7 +182,9 @@ static int check_scene(const tuile_t *t, const tuile_scene_t *scene, uint32_t *m
         if (model->cluster_vertices_max > t->config.cluster_vertices || model->corners_max > t->config.corners) {
             return TUILE_ERROR_LIMITS;
         }
-        if (frame_first_use(scene, i)) { *materials += model->material_count; }
+        if (scene->instances[i].morph > (model->morph_positions ? TUILE_MORPH_ONE : 0)) { return TUILE_ERROR_ARGUMENT; }
+        if (!TUILE_HAS(MORPH) && scene->instances[i].morph != 0) { return TUILE_ERROR_EFFECTS; }
+        if (frame_counts_materials(t) && frame_first_use(scene, i)) { *materials += model->material_count; }
         *faces += model->face_count;
     }
     return *materials > 256 ? TUILE_ERROR_ARGUMENT : TUILE_OK;
@@ -232,6 +234,7 @@ int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     uint8_t *start = t->arena + TUILE_ALIGN8(ramps * ramp);
     t->keep = t->immediate_only = false;
     if (t->method->begin && (error = t->method->begin(t, &start)) != TUILE_OK) { return error; }
+    if (TUILE_HAS(MORPH) && (error = frame_morph_begin(t, &start)) != TUILE_OK) { return error; }
     t->vertices = (vertex_t *)(void *)start;
     const size_t slots = (size_t)(t->arena_end - (uint8_t *)t->vertices) / sizeof(vertex_t);
     t->vertex_limit = (uint32_t)(slots > 65535 ? 65535 : slots);

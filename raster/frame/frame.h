@@ -31,7 +31,7 @@ typedef struct record {
     uint16_t next;
     uint16_t v0;
     int8_t d1, d2;
-    uint8_t material; /* counted through the models of the scene */
+    uint8_t material; /* frame_counts_materials: counted through the models of the scene */
     uint8_t light;    /* flat shading */
 } record_t;
 
@@ -157,8 +157,11 @@ typedef struct tuile {
     uint32_t *tree_stack;     /* config.tree_depth */
     uint16_t *instance_order; /* visibility/arrange.h */
     uint16_t *cluster_slots;  /* of the instance that is being walked: where each cluster's vertices stand */
-    bool keep;                /* no immediate passes in this frame */
-    bool immediate_only;      /* no others */
+    /* Key frames: frame/morph.c. */
+    uint8_t *morph_scratch;
+    uint16_t morph_vertices; /* that it has room for */
+    bool keep;               /* no immediate passes in this frame */
+    bool immediate_only;     /* no others */
     /* The pass. */
     vertex_t *vertices;
     uint8_t *states; /* where the stream of states may begin: after the vertices */
@@ -180,7 +183,7 @@ typedef struct tuile {
     const tuile_instance_t *instance;
     uint8_t sides;          /* SIDE_...: which sides of faces are wanted */
     uint32_t face_base;     /* id of the first face of the instance */
-    uint16_t material_base; /* of the instance's model */
+    uint16_t material_base; /* of the instance's model, where materials are counted, else 0 */
     uint16_t instance_number;
     uint16_t source; /* of the faces that are being binned */
     raster_tile_t tile;
@@ -221,6 +224,7 @@ typedef struct frame_cluster {
     const uint8_t *faces;
     const int16_t *positions;
     const int8_t *fractions;     /* NULL: none */
+    const int8_t *normals;       /* of its vertices, whatever the shading */
     const int8_t *face_normals;  /* flat shading, else NULL */
     const int8_t *plane_normals; /* of its faces, whatever the shading */
     vertex_t *vertices;
@@ -238,8 +242,8 @@ enum { SIDE_FRONT = 1, SIDE_BACK = 2 };
 int bin_pass(tuile_t *t);
 
 /* The same in parts, for methods with an order of their own: nothing binned yet; an instance's faces in their order; an instance
- * made the current one; one of its clusters (BIN_CULLED: none of its faces can be seen), or a cluster whose vertices stand from
- * slot `slot` on. */
+ * made the current one (BIN_CULLED: nothing of it can be seen); one of its clusters (BIN_CULLED: none of its faces can be seen), or
+ * a cluster whose vertices stand from slot `slot` on. */
 void bin_begin(tuile_t *t);
 int bin_instance(tuile_t *t, unsigned number);
 int bin_instance_open(tuile_t *t, unsigned number);
@@ -251,6 +255,14 @@ void bin_again(tuile_t *t, uint16_t row);
 
 /* Vertices that still fit below the records. */
 uint32_t frame_slots_left(const tuile_t *t);
+
+/* ---- morph.c: instances between two key frames ---- */
+
+/* Memory for the frame, if any instance wants it: *arena moves on, by multiples of 8. TUILE_ERROR_MEMORY. */
+int frame_morph_begin(tuile_t *t, uint8_t **arena);
+
+/* Puts the current instance's mixture in the place of the positions and normals of the cluster, until the next call. */
+void frame_morph_cluster(tuile_t *t, frame_cluster_t *cluster);
 
 /* ---- face.c ---- */
 
@@ -316,6 +328,13 @@ void shade_now(tuile_t *t, uint32_t number);
 void resolve_tile(const tuile_t *t);
 
 /* ---- ramp.c ---- */
+
+/* Where colours are drawn at once a record names its material by a number that is counted through the scene: 256 at most. In
+ * deferred shading and for TUILE_FACE_IDS it is the number in the instance's model. */
+TUILE_INLINE bool frame_counts_materials(const tuile_t *t) { return t->record_bytes == sizeof(record_t); }
+
+/* A material of an instance, by its number in the model. */
+tuile_material_t frame_instance_material(const tuile_instance_t *instance, uint32_t material);
 
 /* Materials are counted through the models of the scene, each model once for each set of materials that stands in the place of its
  * own: is this the first instance of it? */

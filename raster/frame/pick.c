@@ -1,4 +1,5 @@
 /* Picking (S3): the visible face by drawing one pixel, the point on it by intersecting the pixel's ray with the face's plane. */
+#include "../geometry/morph.h"
 #include "../geometry/wide.h"
 #include "frame.h"
 
@@ -71,22 +72,27 @@ static unsigned face_corners(const tuile_model_t *model, uint32_t face, const ui
 }
 
 /* In 1/256 step. */
-static void corner_position(const tuile_model_t *model, uint32_t vertex, int32_t position[3]) {
+static void corner_position(const tuile_instance_t *instance, uint32_t vertex, int32_t position[3]) {
+    const tuile_model_t *model = instance->model;
     for (unsigned a = 0; a < 3; a++) {
-        position[a] = 256 * model_i16(model->positions + 6 * (size_t)vertex + 2 * a);
-        if (model->fractions) { position[a] += (int8_t)model->fractions[3 * (size_t)vertex + a]; }
+        const size_t at = 6 * (size_t)vertex + 2 * a;
+        const int8_t fraction = model->fractions ? (int8_t)model->fractions[3 * (size_t)vertex + a] : 0;
+        const int16_t from = model_i16(model->positions + at);
+        const int16_t to = model->morph_positions ? model_i16(model->morph_positions + at) : from;
+        position[a] = morph_coordinate(from, to, fraction, instance->morph);
     }
 }
 
-static void face_plane(const tuile_model_t *model, uint32_t face, wide_t normal[3], wide_t point[3]) {
+static void face_plane(const tuile_instance_t *instance, uint32_t face, wide_t normal[3], wide_t point[3]) {
+    const tuile_model_t *model = instance->model;
     const uint8_t *corners;
     uint32_t first;
     const unsigned count = face_corners(model, face, &corners, &first);
     int64_t sum[3] = {0, 0, 0};
     for (unsigned i = 0; i < count; i++) { /* Newell: components below 255 * 2^49 */
         int32_t p[3], q[3];
-        corner_position(model, first + corners[i], p);
-        corner_position(model, first + corners[(i + 1) % count], q);
+        corner_position(instance, first + corners[i], p);
+        corner_position(instance, first + corners[(i + 1) % count], q);
         for (unsigned a = 0; a < 3 && i == 0; a++) {
             point[a] = wide_make(p[a], -8);
         }
@@ -105,7 +111,7 @@ static void intersect(const tuile_scene_t *scene, tuile_hit_t *hit, uint16_t x, 
     ray_t ray;
     wide_t normal[3], point[3] = {{0, 0}}, between[3];
     pixel_ray(&ray, &scene->camera, instance, x, y);
-    face_plane(instance->model, hit->face, normal, point);
+    face_plane(instance, hit->face, normal, point);
     for (int i = 0; i < 3; i++) {
         between[i] = wide_add(point[i], wide_negate(ray.from[i]));
     }

@@ -21,14 +21,16 @@ uint32_t frame_material_base(const tuile_scene_t *scene, unsigned instance) {
     return base;
 }
 
+tuile_material_t frame_instance_material(const tuile_instance_t *instance, uint32_t material) {
+    return instance->materials ? instance->materials[material] : tuile_model_material(instance->model, material);
+}
+
 tuile_material_t frame_material(const tuile_t *t, uint32_t material) {
     const tuile_scene_t *scene = t->scene;
     for (unsigned i = 0; i < scene->instance_count; i++) {
         const tuile_instance_t *instance = &scene->instances[i];
         if (!frame_first_use(scene, i)) { continue; }
-        if (material < instance->model->material_count) {
-            return instance->materials ? instance->materials[material] : tuile_model_material(instance->model, material);
-        }
+        if (material < instance->model->material_count) { return frame_instance_material(instance, material); }
         material -= instance->model->material_count;
     }
     return (tuile_material_t){.alpha = 255, .texture = TUILE_NO_TEXTURE};

@@ -78,7 +78,7 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
     for (unsigned i = 0; i < 3; i++) {
         corner_open(t, source, extra->source + SOURCE_SLOTS, corners[i], &face->corner[i]);
     }
-    face->material = frame_material(t, record->material);
+    face->material = frame_instance_material(instance, record->material);
     if (face->material.texture < instance->model->texture_count) {
         face->texture = tuile_model_texture(instance->model, face->material.texture);
     } else {

@@ -15,16 +15,22 @@
 
 #define AXIS_LENGTH_MAX 128 /* axes are about 127 long; one that were longer would cull nothing */
 
-bool cull_outside(const transform_t *transform, const uint8_t *cluster) {
-    const int32_t x = model_i16(cluster + CLUSTER_AT_CENTRE), y = model_i16(cluster + CLUSTER_AT_CENTRE + 2);
-    const int32_t z = model_i16(cluster + CLUSTER_AT_CENTRE + 4);
-    const uint32_t radius = model_u16(cluster + CLUSTER_AT_RADIUS);
+static bool sphere_outside(const transform_t *transform, int32_t x, int32_t y, int32_t z, uint32_t radius) {
     for (unsigned p = 0; p < PLANE_COUNT; p++) {
         const transform_plane_t *plane = &transform->planes[p];
         const int64_t value = (int64_t)plane->n[0] * x + (int64_t)plane->n[1] * y + (int64_t)plane->n[2] * z + plane->d;
         if (value + (int64_t)((uint64_t)plane->length * radius) < 0) { return true; }
     }
     return false;
+}
+
+bool cull_outside(const transform_t *transform, const uint8_t *cluster) {
+    return sphere_outside(transform, model_i16(cluster + CLUSTER_AT_CENTRE), model_i16(cluster + CLUSTER_AT_CENTRE + 2),
+                          model_i16(cluster + CLUSTER_AT_CENTRE + 4), model_u16(cluster + CLUSTER_AT_RADIUS));
+}
+
+bool cull_model_outside(const transform_t *transform, const tuile_model_t *model) {
+    return sphere_outside(transform, model->centre[0], model->centre[1], model->centre[2], model->radius);
 }
 
 bool cull_faces_away(const transform_t *transform, const uint8_t *cluster) {

@@ -8,6 +8,9 @@
  * vertex inside; may be false for one that misses the region round a corner. cluster: geometry/model.h. */
 bool cull_outside(const transform_t *transform, const uint8_t *cluster);
 
+/* The same of the bounding sphere of the whole model. */
+bool cull_model_outside(const transform_t *transform, const tuile_model_t *model);
+
 /* Every face of the cluster faces away from the eye, whichever point of it is looked at. */
 bool cull_faces_away(const transform_t *transform, const uint8_t *cluster);
 

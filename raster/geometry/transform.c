@@ -92,9 +92,10 @@ static void plane_store(transform_plane_t *plane, const wide_row_t *row) {
         plane->n[i] = (int32_t)wide_to_integer(row->m[i], 24 - bits);
         squares += (uint64_t)((int64_t)plane->n[i] * plane->n[i]);
     }
-    /* The roundings above are off by at most 3 * 2^15 * 1/2 for any int16 position: the plane moves out by that much. */
+    /* The roundings above are off by at most 3 * 2^15 * 1/2 for any int16 position, and a vertex between two key frames lies up to
+     * 1/256 step along each axis from its place, 3 * 2^24 / 256: the plane moves out by more than both. */
     plane->d = wide_to_integer(row->t, 24 - bits);
-    if (plane->d < ((int64_t)1 << 61)) { plane->d += 65536; }
+    if (plane->d < ((int64_t)1 << 61)) { plane->d += 1 << 18; }
     plane->length = fixed_sqrt64(squares) + 1;
 }
 

@@ -158,7 +158,7 @@ static int descend(tuile_t *t, walk_t *walk, uint32_t at) {
 static int draw_instance(tuile_t *t, unsigned number) {
     walk_t walk = {.stack = t->tree_stack, .cluster = UINT32_MAX, .backwards = t->config.tie == TUILE_TIE_FIRST};
     int result = bin_instance_open(t, number);
-    if (result != FRAME_OK) { return result; }
+    if (result != FRAME_OK) { return result == BIN_CULLED ? FRAME_OK : result; }
     const tuile_model_t *model = t->instance->model;
     walk.two_sided = t->instance->two_sided;
     walk.outer = t->transform.mirrored ? SIDE_BACK : SIDE_FRONT;
