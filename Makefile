@@ -137,8 +137,8 @@ test: ## builds and passes everything: gcc, sanitizers, clang
 	$(MAKE) --no-print-directory check VARIANT=asan
 	$(MAKE) --no-print-directory test-clang
 
-golden: $(OBJ)/test_golden $(TUILE) $(SPIDER) $(BUNNY_6000) ## draw the golden pictures anew; look at them before you commit them
-	@UPDATE_GOLDEN=1 TUILE=$(TUILE) SPIDER=$(SPIDER) BUNNY_6000=$(BUNNY_6000) BUILD=$(BUILD) $<
+golden: $(filter $(OBJ)/test_golden%,$(TESTS)) $(TUILE) $(SPIDER) $(BUNNY_6000) ## draw the golden pictures anew; look at them before you commit them
+	@export UPDATE_GOLDEN=1; $(call RUN_TESTS,$(filter $(OBJ)/test_golden%,$(TESTS)))
 
 test-asan: ## all tests under ASan and UBSan
 	$(MAKE) --no-print-directory check VARIANT=asan

@@ -23,7 +23,7 @@ static const wire_format_t formats[TUILE_FORMAT_COUNT] = {
 static unsigned read_bits(const uint8_t *bytes, size_t first, unsigned count) {
     unsigned value = 0;
     for (size_t bit = first; bit < first + count; bit++) {
-        value = value << 1 | (bytes[bit / 8] >> (7 - bit % 8) & 1u);
+        value = value << 1 | ((unsigned)bytes[bit / 8] >> (7 - bit % 8) & 1u);
     }
     return value;
 }

@@ -194,7 +194,7 @@ static void one_sample_more_than_the_largest_window_is_refused(void **state) {
     size_t wanted;
     (void)state;
     for (unsigned aa = 0; aa < 3; aa++) {
-        const unsigned most = aa == 0 ? TUILE_WINDOW_MAX_PX : TUILE_SAMPLES_MAX >> aa;
+        const unsigned most = aa == 0 ? TUILE_WINDOW_MAX_PX : (unsigned)TUILE_SAMPLES_MAX >> aa;
         tuile_config_t config = {.width = (uint16_t)most, .height = (uint16_t)most, .tile_height = 1, .aa = (uint8_t)aa};
         assert_int_equal(tuile_init(&renderer, &config, NULL, 0, &wanted), TUILE_ERROR_MEMORY);
         config.width++;

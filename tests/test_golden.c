@@ -5,12 +5,10 @@
  * differs. UPDATE_GOLDEN=1 in the environment writes all of them anew; then look at them. */
 #include "support/check.h"
 #include "support/command.h"
+#include "support/golden.h"
 #include "support/models.h"
 
-#include "../sim/picture.h"
 #include "../sim/view.h"
-
-#include <sys/stat.h>
 
 #define WIDTH 120
 #define HEIGHT 90
@@ -34,55 +32,6 @@ static const struct {
     {"octahedron", model_octahedron, {0, 0, 0}, {0, 0, 0}, 45, false},
 };
 static const char *const shades[] = {"flat", "gouraud"};
-static bool updating;
-
-static const char *build_folder(void) {
-    const char *build = getenv("BUILD");
-    return build && *build ? build : "build";
-}
-
-static uint64_t fnv(const uint8_t *bytes, size_t size_bytes) {
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < size_bytes; i++) {
-        hash = (hash ^ bytes[i]) * 0x100000001b3u;
-    }
-    return hash;
-}
-
-/* ---- hashes: lines "NAME HASH" ------------------------------------------------------------------------------- */
-
-typedef struct hashes {
-    const char *path;
-    char *old;
-    char written[4096];
-} hashes_t;
-
-static void hashes_open(hashes_t *hashes, const char *path) {
-    memset(hashes, 0, sizeof *hashes);
-    hashes->path = path;
-    hashes->old = command_read(path, NULL);
-    if (!hashes->old && !updating) { fail_msg("%s is missing; `make golden` writes it", path); }
-}
-
-static bool hashes_check(hashes_t *hashes, const char *name, const char *hash) {
-    char line[128];
-    const size_t used = strlen(hashes->written);
-    (void)snprintf(line, sizeof line, "%s %s\n", name, hash);
-    (void)snprintf(hashes->written + used, sizeof hashes->written - used, "%s", line);
-    return updating || strstr(hashes->old, line) != NULL;
-}
-
-/* In the end the file must hold these lines and no others. */
-static void hashes_close(hashes_t *hashes) {
-    if (updating) {
-        command_write(hashes->path, hashes->written, strlen(hashes->written));
-    } else if (strcmp(hashes->old, hashes->written) != 0) {
-        fail_msg("%s does not say what was drawn just now; if that is meant, `make golden` and look at the pictures\n%s",
-                 hashes->path, hashes->written);
-    }
-    free(hashes->old);
-}
-
 /* ---- pictures ----------------------------------------------------------------------------------------------- */
 
 static void draw(unsigned m, unsigned shade, uint16_t *picture) {
@@ -135,59 +84,23 @@ static void widen(const uint16_t *from, sim_picture_t *to) {
     }
 }
 
-/* Tells where the picture differs and leaves it in build/golden. */
-static void show_difference(const sim_picture_t *drawn, const sim_picture_t *golden, const char *name) {
-    char folder[512], path[640];
-    sim_picture_t difference = {0};
-    sim_error_t error = {""};
-    size_t count = 0;
-    (void)snprintf(folder, sizeof folder, "%s/golden", build_folder());
-    (void)mkdir(folder, 0777);
-    (void)snprintf(path, sizeof path, "%s/%s.png", folder, name);
-    if (sim_picture_write(drawn, path, &error) != 0) { print_message("%s\n", error.text); }
-    (void)snprintf(path, sizeof path, "%s/%s-difference.png", folder, name);
-    if (sim_picture_difference(drawn, golden, &difference, &count, &error) != 0 ||
-        sim_picture_write(&difference, path, &error) != 0) {
-        print_message("%s\n", error.text);
-    }
-    sim_picture_free(&difference);
-    print_message("%s: %zu pixels differ: %s\n", name, count, path);
-}
-
 static void small_models_look_as_they_did(void **state) {
-    hashes_t hashes;
-    unsigned wrong = 0;
+    golden_t golden;
     (void)state;
-    hashes_open(&hashes, "tests/golden/hashes.txt");
+    golden_open(&golden, "tests/golden/hashes.txt");
     for (unsigned m = 0; m < CHECK_COUNT(models); m++) {
         for (unsigned shade = 0; shade < 2; shade++) {
             static uint16_t picture[WIDTH * HEIGHT];
-            char name[64], path[128], hash[24];
-            sim_picture_t drawn, golden = {0};
-            sim_error_t error = {""};
+            char name[64];
+            sim_picture_t drawn;
             (void)snprintf(name, sizeof name, "%s-%s", models[m].name, shades[shade]);
-            (void)snprintf(path, sizeof path, "tests/golden/%s.png", name);
             draw(m, shade, picture);
             widen(picture, &drawn);
-            (void)snprintf(hash, sizeof hash, "%016llx", (unsigned long long)fnv((const uint8_t *)picture, sizeof picture));
-            bool same = hashes_check(&hashes, name, hash);
-            if (updating) {
-                if (sim_picture_write(&drawn, path, &error) != 0) { fail_msg("%s", error.text); }
-            } else if (sim_picture_read(&golden, path, &error) != 0) {
-                print_message("%s\n", error.text);
-                same = false;
-            } else if (golden.width != WIDTH || golden.height != HEIGHT ||
-                       memcmp(golden.rgb, drawn.rgb, (size_t)3 * WIDTH * HEIGHT) != 0) {
-                show_difference(&drawn, &golden, name);
-                same = false;
-            }
-            wrong += !same;
-            sim_picture_free(&golden);
+            golden_picture(&golden, name, (const uint8_t *)picture, sizeof picture, &drawn);
             sim_picture_free(&drawn);
         }
     }
-    hashes_close(&hashes);
-    if (wrong) { fail_msg("%u pictures differ from those in tests/golden", wrong); }
+    golden_close(&golden);
 }
 
 /* ---- the demo ----------------------------------------------------------------------------------------------- */
@@ -228,12 +141,12 @@ static void demo_command(char *to, size_t size, char *line) {
 static void frames_of_the_demo_have_the_hashes_they_had(void **state) {
     static const char *const names[] = {"spider", "bunny"};
     char *makefile = command_read("Makefile", NULL), *rest = makefile;
-    hashes_t hashes;
-    unsigned demos = 0, wrong = 0;
+    golden_t golden;
+    unsigned demos = 0;
     bool in_demo = false;
     (void)state;
     assert_non_null(makefile);
-    hashes_open(&hashes, "tests/golden/demo.txt");
+    golden_open(&golden, "tests/golden/demo.txt");
     for (char *line; (line = strsep(&rest, "\n")) != NULL;) {
         if (line[0] != '\t') { in_demo = strncmp(line, "demo:", 5) == 0; }
         if (!in_demo || strncmp(line, "\t$(TUILE) render ", 17) != 0) { continue; }
@@ -251,9 +164,8 @@ static void frames_of_the_demo_have_the_hashes_they_had(void **state) {
             if (sscanf(text, "frame %u %23s", &frame, hash) != 2) { continue; }
             assert_int_equal(frame, frames++);
             (void)snprintf(name, sizeof name, "%s-%02u", names[demos], 9 * frame);
-            if (!hashes_check(&hashes, name, hash)) {
+            if (!golden_hash(&golden, name, hash)) {
                 print_message("frame %u of %s differs: %s\n", 9 * frame, names[demos], command);
-                wrong++;
             }
         }
         assert_int_equal(frames, 4);
@@ -261,9 +173,8 @@ static void frames_of_the_demo_have_the_hashes_they_had(void **state) {
         demos++;
     }
     assert_int_equal(demos, CHECK_COUNT(names));
-    hashes_close(&hashes);
     free(makefile);
-    if (wrong) { fail_msg("%u frames of the demo differ from tests/golden/demo.txt", wrong); }
+    golden_close(&golden);
 }
 
 int main(void) {
@@ -271,7 +182,5 @@ int main(void) {
         cmocka_unit_test(small_models_look_as_they_did),
         cmocka_unit_test(frames_of_the_demo_have_the_hashes_they_had),
     };
-    const char *update = getenv("UPDATE_GOLDEN");
-    updating = update && strcmp(update, "1") == 0;
     return cmocka_run_group_tests_name("golden", tests, NULL, NULL);
 }

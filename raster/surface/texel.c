@@ -27,7 +27,7 @@ uint32_t texture_level_texel(const tuile_texture_t *texture, const texture_level
     uint32_t bits;
     switch (texture->format) {
     case TUILE_TEXEL_PALETTE8: bits = row[s]; break;
-    case TUILE_TEXEL_PALETTE4: bits = row[s >> 1] >> (4 * (s & 1)) & 15u; break;
+    case TUILE_TEXEL_PALETTE4: bits = (uint32_t)row[s >> 1] >> (4 * (s & 1)) & 15u; break;
     case TUILE_TEXEL_GREY8: bits = row[s]; break;
     default: bits = read16(row + 2 * s); break;
     }
