@@ -20,29 +20,31 @@
 
 /* Pixels of a row. */
 typedef struct resolve_run {
-    uint32_t sums[RESOLVE_RUN];          /* of a pixel's samples, in fields of one word, as the kind's functions have them */
+    const void *samples;                 /* the top left one of the first pixel */
+    size_t stride;                       /* samples from row to row */
+    unsigned shift;                      /* log2 of the samples along a pixel: 0, 1 or 2 */
+    uint32_t sums[RESOLVE_RUN];          /* of a pixel's samples, in fields of one word (mean.c) */
     uint32_t green[RESOLVE_RUN];         /* RGB888: the sums that have no room there */
     uint32_t thresholds[RESOLVE_MATRIX]; /* of pixel i at i % 8: 128ths of a step, times the samples of a pixel */
-    unsigned shift;                      /* log2 of the samples along a pixel: 0, 1 or 2 */
     uint32_t width;                      /* of the tile, in pixels */
     uint32_t x, y, count;                /* the run: its first pixel in the tile, 1 ... RESOLVE_RUN; x is a multiple of 8 */
 } resolve_run_t;
 
-/* Adds up the samples of the run's pixels. samples: the top left one of the first; stride: samples from row to row. */
-typedef void (*resolve_sum_fn)(const void *samples, size_t stride, resolve_run_t *run);
+/* Adds up the samples of the run's pixels. */
+typedef void (*resolve_sum_fn)(resolve_run_t *run);
 
 /* Puts the run into the bytes of its tile. Runs come from left to right and rows from top to bottom, so that a byte which several
  * pixels share is set by the first of them. */
 typedef void (*resolve_put_fn)(const resolve_run_t *restrict run, uint8_t *restrict bytes);
 
 typedef struct resolve_way {
-    resolve_sum_fn sum;
+    resolve_sum_fn sum; /* NULL: there is nothing to add */
     resolve_put_fn put;
 } resolve_way_t;
 
-/* Formats by file: colour.c; grey.c. Not for FACE_IDS. */
-resolve_way_t resolve_colour(pixel_kind_t kind, uint8_t format);
-resolve_way_t resolve_grey(uint8_t format);
+/* For one sample a pixel (single.c), and for several (mean.c). Not for FACE_IDS, nor for samples that are wire bytes. */
+resolve_way_t resolve_single(pixel_kind_t kind, uint8_t format);
+resolve_way_t resolve_mean(pixel_kind_t kind, uint8_t format);
 
 /* The value of Bayer's 8x8 matrix at a pixel of the window, 0 ... 63. */
 unsigned resolve_bayer(uint32_t x, uint32_t y);
