@@ -30,6 +30,7 @@ CORE_SRC := $(wildcard raster/*.c raster/*/*.c hal/*.c hal/*/*.c) firmware/strea
 SIM_SRC := $(wildcard sim/*.c sim/*/*.c)
 REFERENCE_SRC := $(wildcard tests/reference/*.c)
 SUPPORT_SRC := $(wildcard tests/support/*.c)
+MESA_SRC := $(wildcard tests/mesa/*.c)
 TEST_SRC := $(wildcard tests/test_*.c)
 FUZZ_SRC := $(wildcard tests/fuzz_*.c)
 
@@ -68,6 +69,7 @@ all: $(TUILE) ## build the simulator, build/tuile
 
 $(BUILD)/need/sim: ; $(call need,libassimp-dev libmeshoptimizer-dev libpng-dev libjpeg62-turbo-dev,model import + simplification + pictures)
 $(BUILD)/need/test: ; $(call need,libcmocka-dev,tests)
+$(BUILD)/need/mesa: ; $(call need,libosmesa6-dev,a second renderer to compare with)
 $(BUILD)/need/clang: ; $(call need,clang libclang-rt-14-dev,a second compiler)
 $(BUILD)/need/bench: ; $(call need,valgrind,instruction counts)
 $(BUILD)/need/lint: ; $(call need,clang-tidy cppcheck,static analysis)
@@ -92,6 +94,11 @@ $(TUILE): $(SIM_OBJ) $(CORE_OBJ)
 
 $(OBJ)/test_%: $(OBJ)/tests/test_%.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@
+
+# Beside another renderer; it is linked to nothing else.
+$(call objects,$(MESA_SRC)): | $(BUILD)/need/mesa
+$(OBJ)/test_mesa: $(call objects,$(MESA_SRC))
+$(OBJ)/test_mesa: LIBS_TEST += -lOSMesa
 
 $(OBJ)/tests/fuzz_%.o: CFLAGS_HOST += -DFUZZ_DRIVER
 $(OBJ)/fuzz_%: $(OBJ)/tests/fuzz_%.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
