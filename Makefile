@@ -161,6 +161,7 @@ clang-programs: $(TESTS) $(TUILE)
 objects: $(CORE_OBJ)
 	@sh tests/objects.sh $(CORE_OBJ)
 	@sh tests/methods.sh $(OBJ)/methods.o $(CC) $(CFLAGS_CORE)
+	@sh tests/features.sh $(OBJ)/features $(CC) $(CFLAGS_CORE)
 
 # ---- figures -------------------------------------------------------------------------------------------------------
 SIZE ?= 320x240
