@@ -8,7 +8,7 @@ shift
 compiler=$*
 mkdir -p "$folder"
 
-# without NAME BIT FILES FIELDS: builds without the bit and the files; a configuration of the fields must be refused.
+# without NAME DEFINITION FILES FIELDS: builds without the files; a configuration of the fields must be refused.
 without() {
     cat >"$folder/main.c" <<C
 #include "raster/tuile.h"
@@ -23,9 +23,11 @@ C
         case " $3 " in *" $source "*) ;; *) sources="$sources $source" ;; esac
     done
     # shellcheck disable=SC2086
-    $compiler -no-pie -DTUILE_FEATURES=$((0xff & ~$2)) -I. "$folder/main.c" $sources -o "$folder/without"
-    "$folder/without" || { echo "features: without $1 (bit $2) another configuration is refused"; exit 1; }
-    echo "features: $1 (bit $2) can be left out"
+    $compiler -no-pie -D$2 -I. "$folder/main.c" $sources -o "$folder/without"
+    "$folder/without" || { echo "features: without $1 ($2) the wrong configurations are refused"; exit 1; }
+    echo "features: $1 can be left out"
 }
 
-without resolve 64 "$(echo raster/resolve/*.c)" ".format = TUILE_GREY8"
+without resolve TUILE_FEATURES=0x0bf "$(echo raster/resolve/*.c)" ".format = TUILE_GREY8"
+without samples TUILE_FEATURES=0x0ff "raster/resolve/mean.c" ".aa = TUILE_AA_2X2"
+without formats TUILE_FORMATS=0x001 "" ".format = TUILE_RGB332"

@@ -77,7 +77,8 @@ static bool config_complete(tuile_config_t *c, size_t size_bytes) {
         c->warnock > 31 || c->aa > TUILE_AA_4X4 || c->effects > 3 || c->edges > TUILE_EDGES_OUTLINE || c->texturing > 15 ||
         c->width << c->aa > TUILE_SAMPLES_MAX || c->height << c->aa > TUILE_SAMPLES_MAX ||
         (c->edges != TUILE_EDGES_NONE && !(c->effects & TUILE_LAYERS)) ||
-        (!TUILE_HAS(RESOLVE) && TUILE_RESOLVES(c->format, 1u << c->aa, c->dither)) ||
+        !TUILE_HAS_FORMAT(c->format) || (!TUILE_HAS(RESOLVE) && TUILE_RESOLVES(c->format, 1u << c->aa, c->dither)) ||
+        (!TUILE_HAS(SAMPLES) && c->aa) ||
         (c->format == TUILE_FACE_IDS && (c->aa || c->dither || c->effects || c->overlay))) {
         return false;
     }

@@ -7,6 +7,8 @@
 
 #include "put.h"
 
+#include "../features.h"
+
 /* ---- sums ---- */
 
 /* Two samples of two bytes, beside one another. */
@@ -165,17 +167,21 @@ PUT(mean_grey4, put_4(run, bytes, grey4))
 PUT(mean_pages, put_pages(run, bytes, sum_of, run->shift))
 PUT(mean_rows, put_rows(run, bytes, sum_of, run->shift))
 
+/* A build may have fewer formats. */
+#define WAY(format, sum, put) (TUILE_HAS_FORMAT(format) ? (resolve_way_t){sum, put} : (resolve_way_t){NULL, NULL})
+
 resolve_way_t resolve_mean(pixel_kind_t kind, uint8_t format) {
     const bool own = kind != PIXEL_RGB888;
     switch (format) {
-    case TUILE_RGB565_LE: return own ? (resolve_way_t){sum_565_le, mean_565_le_own} : (resolve_way_t){sum_888, mean_565_le};
-    case TUILE_RGB444: return own ? (resolve_way_t){sum_444, mean_444_own} : (resolve_way_t){sum_888, mean_444};
-    case TUILE_RGB666: return (resolve_way_t){sum_888, mean_666};
-    case TUILE_RGB332: return own ? (resolve_way_t){sum_332, mean_332_own} : (resolve_way_t){sum_888, mean_332};
-    case TUILE_GREY8: return (resolve_way_t){sum_luma, mean_grey8};
-    case TUILE_GREY4: return (resolve_way_t){sum_luma, mean_grey4};
-    case TUILE_MONO_PAGES: return (resolve_way_t){sum_luma, mean_pages};
-    case TUILE_MONO_ROWS: return (resolve_way_t){sum_luma, mean_rows};
-    default: return own ? (resolve_way_t){sum_565_be, mean_565_be_own} : (resolve_way_t){sum_888, mean_565_be};
+    case TUILE_RGB565_LE:
+        return own ? WAY(TUILE_RGB565_LE, sum_565_le, mean_565_le_own) : WAY(TUILE_RGB565_LE, sum_888, mean_565_le);
+    case TUILE_RGB444: return own ? WAY(TUILE_RGB444, sum_444, mean_444_own) : WAY(TUILE_RGB444, sum_888, mean_444);
+    case TUILE_RGB666: return WAY(TUILE_RGB666, sum_888, mean_666);
+    case TUILE_RGB332: return own ? WAY(TUILE_RGB332, sum_332, mean_332_own) : WAY(TUILE_RGB332, sum_888, mean_332);
+    case TUILE_GREY8: return WAY(TUILE_GREY8, sum_luma, mean_grey8);
+    case TUILE_GREY4: return WAY(TUILE_GREY4, sum_luma, mean_grey4);
+    case TUILE_MONO_PAGES: return WAY(TUILE_MONO_PAGES, sum_luma, mean_pages);
+    case TUILE_MONO_ROWS: return WAY(TUILE_MONO_ROWS, sum_luma, mean_rows);
+    default: return own ? WAY(TUILE_RGB565_BE, sum_565_be, mean_565_be_own) : WAY(TUILE_RGB565_BE, sum_888, mean_565_be);
     }
 }

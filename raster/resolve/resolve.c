@@ -3,6 +3,7 @@
 
 #include "resolve.h"
 
+#include "../features.h"
 #include "../frame/frame.h"
 
 /* B. E. Bayer, An optimum method for two-level rendition of continuous-tone pictures, 1973: each matrix is made of four of half the
@@ -23,7 +24,8 @@ static void thresholds_make(resolve_run_t *run, bool dither, uint32_t x, uint32_
 
 void resolve_tile(const tuile_t *t) {
     const pixel_kind_t kind = (pixel_kind_t)t->pixel_kind;
-    const resolve_way_t way = (t->samples == 0 ? resolve_single : resolve_mean)(kind, t->config.format);
+    const resolve_way_t way =
+        !TUILE_HAS(SAMPLES) || t->samples == 0 ? resolve_single(kind, t->config.format) : resolve_mean(kind, t->config.format);
     const uint8_t *row = t->working;
     resolve_run_t run;
     run.shift = t->samples;

@@ -3,6 +3,8 @@
 
 #include "put.h"
 
+#include "../features.h"
+
 TUILE_INLINE uint32_t sample_16(const resolve_run_t *run, uint32_t i) { return ((const uint16_t *)run->samples)[i]; }
 
 /* floor(value * most / 255 + threshold / 128) by one product, for value <= 255 and most <= 63. The factor is too large by less than
@@ -50,17 +52,20 @@ PUT(single_grey4, put_4(run, bytes, grey4))
 PUT(single_pages, put_pages(run, bytes, sample_16, 0))
 PUT(single_rows, put_rows(run, bytes, sample_16, 0))
 
+/* A build may have fewer formats. */
+#define WAY(format, put) ((resolve_way_t){NULL, TUILE_HAS_FORMAT(format) ? (put) : NULL})
+
 resolve_way_t resolve_single(pixel_kind_t kind, uint8_t format) {
     const bool own = kind != PIXEL_RGB888;
     switch (format) {
-    case TUILE_RGB565_LE: return (resolve_way_t){NULL, single_565_le};
-    case TUILE_RGB444: return (resolve_way_t){NULL, own ? single_444_own : single_444};
-    case TUILE_RGB666: return (resolve_way_t){NULL, single_666};
-    case TUILE_RGB332: return (resolve_way_t){NULL, own ? single_332_own : single_332};
-    case TUILE_GREY8: return (resolve_way_t){NULL, single_grey8};
-    case TUILE_GREY4: return (resolve_way_t){NULL, single_grey4};
-    case TUILE_MONO_PAGES: return (resolve_way_t){NULL, single_pages};
-    case TUILE_MONO_ROWS: return (resolve_way_t){NULL, single_rows};
-    default: return (resolve_way_t){NULL, single_565_be};
+    case TUILE_RGB565_LE: return WAY(TUILE_RGB565_LE, single_565_le);
+    case TUILE_RGB444: return WAY(TUILE_RGB444, own ? single_444_own : single_444);
+    case TUILE_RGB666: return WAY(TUILE_RGB666, single_666);
+    case TUILE_RGB332: return WAY(TUILE_RGB332, own ? single_332_own : single_332);
+    case TUILE_GREY8: return WAY(TUILE_GREY8, single_grey8);
+    case TUILE_GREY4: return WAY(TUILE_GREY4, single_grey4);
+    case TUILE_MONO_PAGES: return WAY(TUILE_MONO_PAGES, single_pages);
+    case TUILE_MONO_ROWS: return WAY(TUILE_MONO_ROWS, single_rows);
+    default: return WAY(TUILE_RGB565_BE, single_565_be);
     }
 }
