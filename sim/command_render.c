@@ -11,6 +11,7 @@
 #include "render_format.h"
 #include "render_mesh.h"
 #include "render_value.h"
+#include "render_world.h"
 #include "sheet.h"
 #include "show.h"
 #include "view.h"
@@ -40,6 +41,7 @@ static const char usage[] =
     "  --frames N               number of frames, 1 by default\n"
     "  --spin DEG               degrees per frame about --up through --at; by default a full turn in all frames\n"
     "  --eye X,Y,Z --at X,Y,Z --up X,Y,Z   camera, in model units; by default the model is framed\n"
+    "  --orbit YAW,PITCH,DIST   the camera round --at, in degrees from +z by way of +x, and upwards; DIST 0 frames all\n"
     "  --fov DEG                vertical field of view, 45 by default\n"
     "  --near N --far F         distances that are drawn, in model units\n"
     "  --ortho SIZE             orthographic: SIZE model units high\n"
@@ -61,6 +63,7 @@ static void print_usage(FILE *file) {
     (void)fputs(usage, file);
     (void)fputs(render_mesh_usage, file);
     (void)fputs(render_format_usage, file);
+    (void)fputs(render_world_usage, file);
 }
 
 typedef struct render {
@@ -72,11 +75,12 @@ typedef struct render {
     double pick_at[2];
     tuile_config_t config;
     render_format_t format;
+    render_world_t world;
     mesh_options_t mesh_options;
     view_options_t view_options;
 
     uint8_t *bytes;
-    tuile_model_t model;
+    tuile_model_t model, sizes; /* sizes: of all models together */
     view_t view;
     sim_chip_t *chip;
     sim_bus_t bus;
@@ -160,6 +164,8 @@ static int parse(render_t *r, int count, char **arguments) {
             (void)options_numbers(&options, v->pitch, 2, 0.01, 100.0);
         } else if (strcmp(argument, "--centre") == 0) {
             v->has_centre = options_numbers(&options, v->centre, 2, -16000.0, 16000.0);
+        } else if (strcmp(argument, "--orbit") == 0) {
+            v->has_orbit = options_numbers(&options, v->orbit, 3, -1e6, far);
         } else if (strcmp(argument, "--light") == 0) {
             v->has_light = options_numbers(&options, v->light, 3, -far, far);
         } else if (strcmp(argument, "--background") == 0) {
@@ -188,7 +194,8 @@ static int parse(render_t *r, int count, char **arguments) {
             print_usage(stdout);
             return -1;
         } else if (!render_format_option(&r->format, &options, argument) &&
-                   !render_mesh_option(&r->mesh_options, &options, argument)) {
+                   !render_mesh_option(&r->mesh_options, &options, argument) &&
+                   !render_world_option(&r->world, &options, argument)) {
             options_unknown(&options);
         }
     }
@@ -196,6 +203,14 @@ static int parse(render_t *r, int count, char **arguments) {
     if (!r->model_path) {
         print_usage(stderr);
         return EXIT_USAGE;
+    }
+    if (r->has_show && render_world_has_more(&r->world)) {
+        return command_fail("--show: draws one model; leave out --add and --lod"), EXIT_USAGE;
+    }
+    if (v->has_orbit && (v->has_eye || v->orbit[2] < 0)) {
+        return command_fail("--orbit: %s",
+                            v->has_eye ? "says where the eye is; leave out --eye" : "the distance must not be negative"),
+               EXIT_USAGE;
     }
     if (r->has_show && !r->out) { return command_fail("--show: where to? Add --out FILE.png"), EXIT_USAGE; }
     if (!render_value_pattern("--out", r->out, r->frames) || !render_value_pattern("--ids", r->ids, r->frames)) {
@@ -246,6 +261,11 @@ static int set_up(render_t *r) {
     int result = tuile_model_open(&r->model, r->bytes, size_bytes);
     if (result) { return command_fail("%s: %s", r->model_path, tuile_error_text(result)); }
 
+    if (render_world_load(&r->world, &r->model, &r->mesh_options, &r->view_options, &r->error) != 0) {
+        return command_fail("%s", r->error.text);
+    }
+    r->sizes = r->model;
+    render_world_sizes(&r->world, &r->sizes);
     r->chip = sim_ili9341_create(&r->error);
     if (!r->chip) { return command_fail("%s", r->error.text); }
     const sim_bus_config_t bus = {.clock_hz = (uint32_t)r->clock_hz};
@@ -259,10 +279,11 @@ static int set_up(render_t *r) {
     r->config.width = r->display.width;
     r->config.height = r->display.height;
     if (render_format_apply(&r->format, r->rotate, &r->config) != 0) { return EXIT_FAILURE; }
-    if (open_renderer(&r->renderer, &r->block, &r->config, &r->model, &r->memory_bytes) != 0) { return EXIT_FAILURE; }
+    if (open_renderer(&r->renderer, &r->block, &r->config, &r->sizes, &r->memory_bytes) != 0) { return EXIT_FAILURE; }
     if (view_make(&r->view, &r->view_options, &r->model, r->config.width, r->config.height, (unsigned)r->frames, &r->error) != 0) {
         return command_fail("%s", r->error.text);
     }
+    if (render_world_place(&r->world, &r->view, (unsigned)r->frames, &r->error) != 0) { return command_fail("%s", r->error.text); }
     if (r->sheet) {
         r->pictures = sim_pictures_create((size_t)r->frames);
         if (!r->pictures) { return command_fail("out of memory"); }
@@ -295,13 +316,13 @@ static int write_ids(render_t *r, unsigned frame) {
     config.dither = false;
     uint32_t *ids = calloc(pixels, sizeof *ids);
     if (!ids) { return command_fail("out of memory"); }
-    int code = open_renderer(&renderer, &block, &config, &r->model, &memory_bytes);
+    int code = open_renderer(&renderer, &block, &config, &r->sizes, &memory_bytes);
     const int result = code ? 0 : ids_draw(renderer, &r->view.scene, ids);
     if (result < 0) { code = command_fail("--ids: %s", tuile_error_text(result)); }
     if (code == 0 && output_open(&out, name, &r->error) == 0) {
         for (size_t i = 0; i < pixels; i++) {
             const uint32_t id = ids[i];
-            (void)fprintf(out.file, "%u%c", id ? tuile_model_source_face(&r->model, id - 1) + 1 : 0, (i + 1) % width ? ' ' : '\n');
+            (void)fprintf(out.file, "%u%c", id ? render_world_source(&r->view.scene, id - 1) + 1 : 0, (i + 1) % width ? ' ' : '\n');
         }
         if (output_close(&out, &r->error) != 0) { code = command_fail("%s", r->error.text); }
     } else if (code == 0) {
@@ -315,8 +336,8 @@ static int write_ids(render_t *r, unsigned frame) {
 static int print_pick(render_t *r) {
     tuile_hit_t hit;
     tuile_config_t config = r->config;
-    config.cluster_vertices = r->model.cluster_vertices_max;
-    config.corners = r->model.corners_max;
+    config.cluster_vertices = r->sizes.cluster_vertices_max;
+    config.corners = r->sizes.corners_max;
     const size_t size =
         TUILE_PICK_BYTES((size_t)config.height, (size_t)config.cluster_vertices) + TUILE_CORNERS_BYTES(config.corners);
     if (r->pick_at[0] != floor(r->pick_at[0]) || r->pick_at[1] != floor(r->pick_at[1]) || r->pick_at[0] >= config.width ||
@@ -333,13 +354,18 @@ static int print_pick(render_t *r) {
         (void)printf("pick %g,%g: background\n", r->pick_at[0], r->pick_at[1]);
         return 0;
     }
-    const double step = ldexp((double)r->model.step.mantissa, r->model.step.exponent);
+    const tuile_model_t *model = r->view.scene.instances[hit.instance].model;
+    const double step = ldexp((double)model->step.mantissa, model->step.exponent);
     double point[3];
     for (int i = 0; i < 3; i++) {
-        point[i] = step * (r->model.offset[i] + hit.point[i] / 65536.0);
+        point[i] = step * (model->offset[i] + hit.point[i] / 65536.0);
     }
-    (void)printf("pick %g,%g: face %u at %.6g,%.6g,%.6g\n", r->pick_at[0], r->pick_at[1],
-                 tuile_model_source_face(&r->model, hit.face) + 1, point[0], point[1], point[2]);
+    uint32_t source = hit.face;
+    for (unsigned i = 0; i < hit.instance; i++) {
+        source += r->view.scene.instances[i].model->face_count;
+    }
+    source = render_world_source(&r->view.scene, source);
+    (void)printf("pick %g,%g: face %u at %.6g,%.6g,%.6g\n", r->pick_at[0], r->pick_at[1], source + 1, point[0], point[1], point[2]);
     return 0;
 }
 
@@ -354,9 +380,11 @@ static void report_frame(const render_t *r, unsigned frame, const char *hash) {
         "%s\n    {\"frame\": %u, \"hash\": \"%s\", \"width\": %u, \"height\": %u, \"tile_width\": %u, \"tile_height\": %u,\n"
         "     \"format\": \"%s\",\n",
         frame ? "," : "", frame, hash, c->width, c->height, c->tile_width, c->tile_height, format);
-    (void)fprintf(
-        f, "     \"faces\": %u, \"clusters\": %u, \"clusters_outside\": %u, \"clusters_facing_away\": %u, \"vertices\": %u,\n",
-        s->faces, s->clusters, s->clusters_outside, s->clusters_facing_away, s->vertices);
+    (void)fprintf(f,
+                  "     \"instances\": %u, \"instances_outside\": %u, \"faces\": %u, \"clusters\": %u, \"clusters_outside\": %u, "
+                  "\"clusters_facing_away\": %u, \"vertices\": %u,\n",
+                  s->instances, s->instances_outside, s->faces, s->clusters, s->clusters_outside, s->clusters_facing_away,
+                  s->vertices);
     (void)fprintf(
         f,
         "     \"faces_tested\": %u, \"faces_back\": %u, \"faces_degenerate\": %u, \"faces_outside\": %u, \"faces_clipped\": %u,\n"
@@ -420,6 +448,7 @@ static int draw_frame(render_t *r, unsigned frame) {
     sim_picture_t picture = {0}, glass = {0};
     char name[4096], hash[24] = "";
     view_frame(&r->view, frame);
+    if (render_world_frame(&r->world, &r->view, frame, &r->error) != 0) { return command_fail("%s", r->error.text); }
     const int result = (render_format_on_panel(&r->format) ? draw_panel : draw_decoded)(r, &picture, &glass);
     if (result > 0) { return command_fail("%s", r->error.text); }
     if (result) {
@@ -505,6 +534,7 @@ int command_render(int count, char **arguments) {
         if (r.chip) { r.chip->destroy(r.chip); }
         free(r.block);
         free(r.bytes);
+        render_world_free(&r.world);
     }
     return code;
 }

@@ -1,11 +1,15 @@
 #include "view.h"
 
+#include "../raster/scene/camera.h"
+
 #include <math.h>
 #include <string.h>
 
 static double length3(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 static q16_16_t to_q16(double value) { return (q16_16_t)llround(value * 65536.0); }
+
+static bam16_t to_bam16(double degrees) { return (bam16_t)(llround(fmod(degrees, 360.0) * (65536.0 / 360.0)) & 0xffff); }
 
 /* Bounding sphere in model units. */
 static void model_sphere(const tuile_model_t *model, double centre[3], double *radius) {
@@ -18,41 +22,55 @@ static void model_sphere(const tuile_model_t *model, double centre[3], double *r
 
 typedef struct framing {
     double eye[3], at[3], near, far, fov;
+    double centre[3], radius; /* of all that is to be seen */
+    double distance;          /* from eye to at, unless the eye was given */
 } framing_t;
 
+/* The way from what is looked at to the eye, of any length. */
+static void orbit_direction(const view_options_t *o, const double usual[3], double from[3]) {
+    const double yaw = o->orbit[0] * 3.14159265358979323846 / 180.0, pitch = o->orbit[1] * 3.14159265358979323846 / 180.0;
+    const double round[3] = {sin(yaw) * cos(pitch), sin(pitch), cos(yaw) * cos(pitch)};
+    memcpy(from, o->has_orbit ? round : usual, sizeof round);
+}
+
 static void frame_model(framing_t *f, const view_options_t *o, const tuile_model_t *model, double aspect) {
-    double centre[3], radius, distance[3];
-    model_sphere(model, centre, &radius);
+    double distance[3];
+    model_sphere(model, f->centre, &f->radius);
+    if (o->has_sphere) {
+        memcpy(f->centre, o->sphere_centre, sizeof f->centre);
+        f->radius = o->sphere_radius;
+    }
     f->fov = o->fov;
-    memcpy(f->at, o->has_at ? o->at : centre, sizeof f->at);
+    memcpy(f->at, o->has_at ? o->at : f->centre, sizeof f->at);
     if (o->has_eye) {
         memcpy(f->eye, o->eye, sizeof f->eye);
     } else {
         /* Far enough back that the bounding sphere fits both ways, a little from the right and above. */
         const double half = f->fov * 3.14159265358979323846 / 360.0, across = atan(tan(half) * aspect);
-        const double back = radius / sin(half < across ? half : across);
-        static const double from[3] = {0.4, 0.3, 1.0};
+        const double back = f->radius / sin(half < across ? half : across);
+        static const double right_above[3] = {0.4, 0.3, 1.0};
+        double from[3];
+        orbit_direction(o, right_above, from);
+        f->distance = o->has_orbit && o->orbit[2] > 0 ? o->orbit[2] : back;
         for (int i = 0; i < 3; i++) {
-            f->eye[i] = f->at[i] + back * from[i] / length3(from);
+            f->eye[i] = f->at[i] + f->distance * from[i] / length3(from);
         }
     }
     for (int i = 0; i < 3; i++) {
-        distance[i] = centre[i] - f->eye[i];
+        distance[i] = f->centre[i] - f->eye[i];
     }
-    const double reach = length3(distance) + radius;
+    const double reach = length3(distance) + f->radius;
     f->far = o->has_far ? o->far : reach * 1.01;
-    f->near = o->has_near ? o->near : fmax(length3(distance) - radius * 1.01, f->far / 1000.0);
+    f->near = o->has_near ? o->near : fmax(length3(distance) - f->radius * 1.01, f->far / 1000.0);
 }
 
 /* World units are model units times a power of two that brings all distances close to 8192, so that q16_16_t neither overflows nor
  * wastes bits. */
-static double world_unit(const framing_t *f, const tuile_model_t *model) {
-    double centre[3], radius, largest;
+static double world_unit(const framing_t *f) {
+    double largest = fmax(fmax(fabs(f->near), fabs(f->far)), f->radius);
     int exponent;
-    model_sphere(model, centre, &radius);
-    largest = fmax(fmax(fabs(f->near), fabs(f->far)), radius);
     for (int i = 0; i < 3; i++) {
-        largest = fmax(largest, fmax(fabs(f->eye[i]), fmax(fabs(f->at[i]), fabs(centre[i]) + radius)));
+        largest = fmax(largest, fmax(fabs(f->eye[i]), fmax(fabs(f->at[i]), fabs(f->centre[i]) + f->radius)));
     }
     (void)frexp(largest, &exponent);
     return ldexp(1.0, 13 - exponent);
@@ -69,7 +87,12 @@ static int place_camera(view_t *view, const view_options_t *o, const framing_t *
         at[i] = to_q16(f->at[i] * view->unit);
         up[i] = to_q16(o->up[i] / up_length * 16384.0);
     }
-    if (tuile_camera_look_at(camera, eye, at, up) != 0) {
+    if (o->has_orbit && !o->has_eye) {
+        if (tuile_camera_orbit(camera, at, to_q16(f->distance * view->unit), to_bam16(o->orbit[0]), to_bam16(o->orbit[1]), 0) !=
+            0) {
+            return sim_fail(error, "--orbit: the distance is out of all proportion");
+        }
+    } else if (tuile_camera_look_at(camera, eye, at, up) != 0) {
         return sim_fail(error, "the camera looks nowhere: --eye and --at are the same point, or --up lies along the view");
     }
     const double near = f->near * view->unit, far = f->far * view->unit;
@@ -116,7 +139,7 @@ int view_make(view_t *view, const view_options_t *options, const tuile_model_t *
     framing_t framing;
     memset(view, 0, sizeof *view);
     frame_model(&framing, options, model, (double)width / height);
-    view->unit = world_unit(&framing, model);
+    view->unit = world_unit(&framing);
     for (int i = 0; i < 3; i++) {
         view->at[i] = framing.at[i] * view->unit;
         view->up[i] = options->up[i];

@@ -9,16 +9,18 @@
 
 /* In model units and degrees. A `has_` that is false asks for a default that frames the model. */
 typedef struct view_options {
-    bool has_eye, has_at, has_near, has_far, has_light, has_ortho, has_centre, has_spin;
+    bool has_eye, has_at, has_near, has_far, has_light, has_ortho, has_centre, has_spin, has_orbit, has_sphere;
     double eye[3], at[3], up[3];
     double fov; /* full vertical angle, degrees */
     double near, far;
-    double light[3];         /* the way it travels, world */
-    double ortho;            /* height of the window in model units */
-    double pitch[2];         /* size of a pixel, x and y, relative: 1, 1 are square ones */
-    double centre[2];        /* principal point, pixels */
-    double spin;             /* degrees a frame, about `up` through `at` */
-    double ambient, diffuse; /* 0 ... 1 */
+    double light[3];  /* the way it travels, world */
+    double ortho;     /* height of the window in model units */
+    double pitch[2];  /* size of a pixel, x and y, relative: 1, 1 are square ones */
+    double centre[2]; /* principal point, pixels */
+    double spin;      /* degrees a frame, about `up` through `at` */
+    double orbit[3];  /* the eye round `at`: yaw and pitch in degrees, and the distance, 0 = that which frames all */
+    double sphere_centre[3], sphere_radius; /* what is framed; else the model */
+    double ambient, diffuse;                /* 0 ... 1 */
     uint8_t background[3];
 } view_options_t;
 
