@@ -3,7 +3,9 @@
 #include <stddef.h>
 
 static int check(const tuile_config_t *config, const tuile_display_t *display) {
-    if (config->format != TUILE_RGB565_BE || display->config.wire != TUILE_WIRE_RGB565) { return TUILE_ERROR_ARGUMENT; }
+    const bool short_pixels = config->format == TUILE_RGB565_BE && display->config.wire == TUILE_WIRE_RGB565;
+    const bool long_pixels = config->format == TUILE_RGB666 && display->config.wire == TUILE_WIRE_RGB666;
+    if (!short_pixels && !long_pixels) { return TUILE_ERROR_ARGUMENT; }
     return config->width == display->width && config->height == display->height ? TUILE_OK : TUILE_ERROR_ARGUMENT;
 }
 

@@ -1,8 +1,11 @@
 /* Formats in whole pictures: the same through any tiles, memory and method; blocks that the macros size; dots that show shading. */
+#include "support/board.h"
 #include "support/check.h"
 #include "support/frame.h"
 #include "support/models.h"
 #include "support/stage.h"
+
+#include "../firmware/stream.h"
 
 #define WIDTH 61u
 #define HEIGHT 43u
@@ -204,6 +207,43 @@ static void a_white_or_black_window_has_no_dots_of_the_other_kind(void **state) 
     }
 }
 
+/* ---- the panel's own formats ---- */
+
+static void the_panel_takes_both_of_its_formats(void **state) {
+    static uint64_t block[8192];
+    static const uint8_t formats[] = {TUILE_RGB565_BE, TUILE_RGB666};
+    stage_t stage;
+    mesh_t mesh;
+    (void)state;
+    model_torus(&mesh, 32, 14, false);
+    stage_open(&stage, &mesh, 240, 320);
+    for (unsigned i = 0; i < 4; i++) {
+        board_t board;
+        tuile_t *renderer;
+        tuile_config_t config = stage_panel_config(&stage);
+        sim_picture_t seen = {0};
+        config.format = formats[i % 2];
+        config.dither = config.format == TUILE_RGB666;
+        board_open(&board, NULL);
+        assert_int_equal(board_start(&board, 0, i / 2 == 0 ? TUILE_WIRE_RGB565 : TUILE_WIRE_RGB666), 0);
+        assert_int_equal(tuile_init(&renderer, &config, block, sizeof block, NULL), 0);
+        const int result = tuile_stream_frame(renderer, &stage.view.scene, &board.display, NULL);
+        assert_int_equal(result, i % 2 == i / 2 ? 0 : TUILE_ERROR_ARGUMENT);
+        if (result == 0 && config.format == TUILE_RGB666) {
+            uint8_t *picture = frame_draw(&stage.view.scene, &config, (size_t)1 << 20, NULL);
+            assert_int_equal(sim_bus_picture(&board.bus, 0, &seen, NULL), 0);
+            for (size_t k = 0; k < (size_t)240 * 320 * 3; k++) {
+                assert_int_equal(seen.rgb[k], picture[k] | picture[k] >> 6); /* the panel repeats the upper bits below */
+            }
+            free(picture);
+            sim_picture_free(&seen);
+        }
+        board_check_clean(&board);
+        board_close(&board);
+    }
+    stage_close(&stage);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tiles_memory_and_method_do_not_move_the_matrix),
@@ -213,6 +253,7 @@ int main(void) {
         cmocka_unit_test(the_macro_counts_the_samples),
         cmocka_unit_test(dots_follow_the_luminance_of_a_sphere),
         cmocka_unit_test(a_white_or_black_window_has_no_dots_of_the_other_kind),
+        cmocka_unit_test(the_panel_takes_both_of_its_formats),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
