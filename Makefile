@@ -61,7 +61,7 @@ define need
 	@mkdir -p $(@D) && touch $@
 endef
 
-.PHONY: golden help all demo test test-asan test-clang check bench bench-methods docs-pictures size size-arm format format-check lint clean
+.PHONY: golden help all demo test test-asan test-clang check bench bench-methods docs-pictures gallery size size-arm format format-check lint clean
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' Makefile | sed 's/:.*##/\t/' | expand -t 16
 
@@ -209,6 +209,11 @@ docs-pictures: $(TUILE) $(COMPARED)/room-tree.tuile ## draw the pictures of docs
 	$(TUILE) render tests/models/room.obj $(ROOM_VIEW) --show warnock-windows --out $(PICTURES)/warnock.png
 	$(TUILE) render tests/models/beams.obj $(BEAMS_VIEW) --show painter-order --out $(PICTURES)/painter.png
 	$(TUILE) render $(COMPARED)/room-tree.tuile $(ROOM_VIEW) --show tree-order --out $(PICTURES)/tree.png
+
+# docs/gallery.md is the list: each of its commands draws one picture.
+gallery: $(TUILE) $(SPIDER) $(BUNNY_6000) ## draw the pictures of docs/gallery.md anew; look at them before you commit them
+	@mkdir -p $(PICTURES)/gallery
+	@awk '/^```sh/ { on = 1; next } /^```/ { on = 0 } on' docs/gallery.md | SPIDER=$(SPIDER) BUNNY=$(BUNNY_6000) sh -e
 
 size: $(CORE_OBJ) ## code size of each part, and that no part has data of its own
 	@size $(CORE_OBJ) | awk 'NR == 1 { print; next } { print; text += $$1; data += $$2; bss += $$3 } \
