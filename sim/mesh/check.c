@@ -1,9 +1,9 @@
 /* What Assimp does not say.
  *
  * Tried with Assimp 5.2.5: an OBJ file that breaks off in the middle of a line loads as if nothing were missing, one with numbers
- * like 1e60 or nan loads, and an index out of range fails without a line number. A PLY file that breaks off loads with indices
- * that were never written, or never returns; an OFF file whose header promises more than follows loads with empty faces, or
- * asks for all memory there is. So these three are read over here first; every other format is left to Assimp.
+ * like 1e60 or nan loads (texture coordinates as 0), and an index out of range fails without a line number. A PLY file that breaks
+ * off loads with indices that were never written, or never returns; an OFF file whose header promises more than follows loads with
+ * empty faces, or asks for all memory there is. So these three are read over here first; every other format is left to Assimp.
  */
 #include "stages.h"
 
@@ -165,7 +165,17 @@ static int check_obj_face(const char *path, const lines_t *lines, char *p, const
     return 0;
 }
 
-static int check_obj(const char *path, char *text, size_t size_bytes, sim_error_t *error) {
+/* Assimp takes 0 for what is not finite. */
+static int check_obj_texcoord(const char *path, const lines_t *lines, char *text, long long number, sim_error_t *error) {
+    double at[3] = {0};
+    (void)read_point(text, at);
+    if (fits(at)) { return 0; }
+    return sim_fail(error,
+                    "%s:%zu: texture vertex %lld (%g, %g) is not finite; repair it, or draw without textures (--no-textures)", path,
+                    lines->number, number, at[0], at[1]);
+}
+
+static int check_obj(const char *path, char *text, size_t size_bytes, bool textures, sim_error_t *error) {
     obj_counts_t in_all = {0}, so_far = {0};
     for (size_t i = 0; i < size_bytes; i++) { /* counted first, since a face may come before its vertices */
         if (i == 0 || text[i - 1] == '\n' || text[i - 1] == '\r') {
@@ -178,7 +188,10 @@ static int check_obj(const char *path, char *text, size_t size_bytes, sim_error_
     lines_t lines = {.at = text, .end = text + size_bytes};
     for (char *line; (line = next_line(&lines, true));) {
         line = skip_blanks(line);
-        so_far.textures += is_keyword(line, "vt");
+        if (is_keyword(line, "vt")) {
+            so_far.textures++;
+            if (textures && check_obj_texcoord(path, &lines, line + 2, so_far.textures, error)) { return -1; }
+        }
         so_far.normals += is_keyword(line, "vn");
         if (is_keyword(line, "v")) {
             so_far.vertices++;
@@ -245,12 +258,12 @@ static int check_off(const char *path, char *text, size_t size_bytes, sim_error_
     return 0;
 }
 
-int mesh_check_text(const char *path, char *text, size_t size_bytes, sim_error_t *error) {
+int mesh_check_text(const char *path, char *text, size_t size_bytes, bool textures, sim_error_t *error) {
     const char *dot = strrchr(path, '.');
     if (!dot || size_bytes < 2 || !memcmp(text, "\xff\xfe", 2) || !memcmp(text, "\xfe\xff", 2)) {
         return 0; /* UTF-16, which Assimp converts */
     }
     if (!strncmp(text, "ply\n", 4) || !strncmp(text, "ply\r", 4)) { return mesh_check_ply(path, text, size_bytes, error); }
-    if (!strcasecmp(dot, ".obj")) { return check_obj(path, text, size_bytes, error); }
+    if (!strcasecmp(dot, ".obj")) { return check_obj(path, text, size_bytes, textures, error); }
     return strcasecmp(dot, ".off") ? 0 : check_off(path, text, size_bytes, error);
 }

@@ -266,7 +266,7 @@ static int collector_read(collector_t *c) {
     char *text;
     size_t size_bytes;
     if (mesh_read_file(c->path, &text, &size_bytes, c->error)) { return -1; }
-    int status = mesh_check_text(c->path, text, size_bytes, c->error);
+    int status = mesh_check_text(c->path, text, size_bytes, !c->options->no_textures, c->error);
     free(text);
     if (status) { return -1; }
     log_catch_t caught = {{0}};

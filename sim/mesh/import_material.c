@@ -10,6 +10,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 void mesh_warn(mesh_t *mesh, const char *format, ...) {
@@ -197,7 +198,8 @@ static void bytes_of(const struct aiColor4D *colour, uint8_t bytes[3]) {
     bytes[2] = import_byte((double)colour->b);
 }
 
-static void import_light(const struct aiMaterial *from, import_material_t *to) {
+/* is_ply: Assimp calls all faces of such files two-sided; here they are taken as they are turned. */
+static void import_light(const struct aiMaterial *from, bool is_ply, import_material_t *to) {
     struct aiColor4D colour;
     tuile_material_t *surface = &to->surface;
     if (aiGetMaterialColor(from, AI_MATKEY_COLOR_EMISSIVE, &colour) == aiReturn_SUCCESS) { bytes_of(&colour, surface->emission); }
@@ -209,7 +211,7 @@ static void import_light(const struct aiMaterial *from, import_material_t *to) {
     }
     if (!is_set(from, "$mat.gltf.alphaMode", "OPAQUE")) { surface->alpha = import_byte(number_of(from, "$mat.opacity", 1)); }
     int number = 0;
-    if (aiGetMaterialInteger(from, AI_MATKEY_TWOSIDED, &number) == aiReturn_SUCCESS && number) {
+    if (!is_ply && aiGetMaterialInteger(from, AI_MATKEY_TWOSIDED, &number) == aiReturn_SUCCESS && number) {
         surface->flags |= TUILE_MATERIAL_TWO_SIDED;
     }
     number = 0;
@@ -232,7 +234,8 @@ const import_material_t *import_material(collector_t *c, unsigned index) {
         (void)aiGetMaterialString(from, AI_MATKEY_NAME, &name);
         (void)snprintf(to->name, sizeof to->name, "%.60s", name.data);
         (void)aiGetMaterialColor(from, AI_MATKEY_COLOR_DIFFUSE, &diffuse);
-        import_light(from, to);
+        const char *dot = strrchr(c->path, '.');
+        import_light(from, dot && !strcasecmp(dot, ".ply"), to);
         if (import_texture(c, from, to)) { return NULL; }
     }
     bytes_of(&diffuse, to->colour);

@@ -29,8 +29,8 @@ void mesh_warn(mesh_t *mesh, const char *format, ...);
 int mesh_read_file(const char *path, char **text, size_t *size_bytes, sim_error_t *error);
 
 /* Finds the damage in OBJ, PLY and OFF files that Assimp lets pass or hangs on: files cut short, numbers that are none or not
- * finite, indices out of range. text is overwritten. */
-int mesh_check_text(const char *path, char *text, size_t size_bytes, sim_error_t *error);
+ * finite, indices out of range. textures: texture coordinates are looked at as well. text is overwritten. */
+int mesh_check_text(const char *path, char *text, size_t size_bytes, bool textures, sim_error_t *error);
 
 /* The same for PLY, text and binary (check_ply.c). */
 int mesh_check_ply(const char *path, char *text, size_t size_bytes, sim_error_t *error);
