@@ -64,15 +64,20 @@ static bool distinct_corners(const mesh_t *mesh, const mesh_face_t *face) {
     return false;
 }
 
-/* A number for each place; with a second key frame, for each pair of places. */
+/* A number for each place; with a second key frame, for each pair of places. 0 without memory. */
 static size_t number_places(const mesh_t *mesh, uint32_t *remap) {
     const size_t count = mesh->position_count;
-    const struct meshopt_Stream streams[2] = {{mesh->positions, sizeof *mesh->positions, sizeof *mesh->positions},
-                                              {mesh->morph.positions, sizeof *mesh->positions, sizeof *mesh->positions}};
     if (!mesh->morph.positions) {
         return meshopt_generateVertexRemap(remap, NULL, count, mesh->positions, count, sizeof *mesh->positions);
     }
-    return meshopt_generateVertexRemapMulti(remap, NULL, count, count, streams, 2);
+    double(*pairs)[6] = mesh_array(count, sizeof *pairs);
+    for (size_t v = 0; pairs && v < count; v++) {
+        memcpy(pairs[v], mesh->positions[v], sizeof *mesh->positions);
+        memcpy(pairs[v] + 3, mesh->morph.positions[v], sizeof *mesh->positions);
+    }
+    const size_t places = pairs ? meshopt_generateVertexRemap(remap, NULL, count, pairs, count, sizeof *pairs) : 0;
+    free(pairs);
+    return places;
 }
 
 static uint32_t normal_of(const double (*normals)[3], uint32_t vertex) {
@@ -112,12 +117,12 @@ static int join(collector_t *c) {
     mesh->corner_normals = mesh_array(mesh->corner_count, sizeof *mesh->corner_normals);
     if (c->textured) { mesh->texcoords = mesh_array(mesh->corner_count, sizeof *mesh->texcoords); }
     if (c->tinted) { mesh->colours = mesh_array(mesh->corner_count, sizeof *mesh->colours); }
-    if (!remap || !mesh->corner_normals || (c->textured && !mesh->texcoords) || (c->tinted && !mesh->colours)) {
+    const size_t count = remap ? number_places(mesh, remap) : 0;
+    if (!count || !mesh->corner_normals || (c->textured && !mesh->texcoords) || (c->tinted && !mesh->colours)) {
         free(remap);
         return import_no_memory(c);
     }
     spread(c);
-    const size_t count = number_places(mesh, remap);
     for (size_t i = 0; i < mesh->corner_count; i++) {
         mesh->corners[i] = remap[mesh->corners[i]];
     }

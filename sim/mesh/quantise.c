@@ -350,9 +350,14 @@ static size_t gather(work_t *w, const mesh_face_t *face) {
 }
 
 static bool evenly_lit(const work_t *w, size_t count) {
-    const uint32_t *normal_of = w->mesh->corner_normals;
+    const mesh_t *mesh = w->mesh;
     for (size_t i = 1; i < count; i++) {
-        if (memcmp(w->normals[normal_of[w->corner[i]]], w->normals[normal_of[w->corner[0]]], sizeof *w->normals)) { return false; }
+        const uint32_t *of = mesh->corner_normals, *second = mesh->morph.corner_normals;
+        if (memcmp(w->normals[of[w->corner[i]]], w->normals[of[w->corner[0]]], sizeof *w->normals) != 0 ||
+            (w->solid->morphs && memcmp(w->morph_normals[second[w->corner[i]]], w->morph_normals[second[w->corner[0]]],
+                                        sizeof *w->morph_normals) != 0)) {
+            return false;
+        }
     }
     return true;
 }
