@@ -10,6 +10,7 @@
 #include "../raster/geometry/model.h"
 #include "../raster/tuile.h"
 #include "../sim/mesh/mesh.h"
+#include "../sim/mesh/stages.h"
 #include "reference/fuzz_driver.h"
 #include "support/check.h"
 #include "support/models.h"
@@ -81,6 +82,10 @@ static void set_make(set_t *set, const tuile_model_t *model) {
     tuile_rotation(set->instances[0].pose.rotation, 1, (bam16_t)(turn * 7919u));
     tuile_rotation(set->instances[1].pose.rotation, 0, (bam16_t)(turn * 4999u));
     set->instances[1].pose.translation[0] = 1 << 15;
+    if (model->morph_positions) {
+        set->instances[0].morph = (uint16_t)(turn * 4001u % (TUILE_MORPH_ONE + 1));
+        set->instances[1].morph = TUILE_MORPH_ONE;
+    }
     set->scene = (tuile_scene_t){.instances = set->instances,
                                  .instance_count = turn % 7 == 0 ? 2 : 1,
                                  .lights = &set->light,
@@ -91,6 +96,8 @@ static void set_make(set_t *set, const tuile_model_t *model) {
     set->config.width = WIDTH;
     set->config.height = HEIGHT;
     set->config.buffers = (uint8_t)(1 + turn % 2);
+    if (turn / 3 % 4 != 0 && set->config.format != TUILE_FACE_IDS) { set->config.effects = TUILE_SURFACES; }
+    set->config.texturing = (uint8_t)(turn / 12 % 8);
     set->config.warnock = (uint8_t)(turn / 4 % 32);
     set->config.cluster_vertices = model->cluster_vertices_max;
     set->config.corners = model->corners_max;
@@ -352,6 +359,76 @@ static void crossing(mesh_t *mesh) {
     }
 }
 
+static void *copy_of(const void *from, size_t size) {
+    void *to = malloc(size);
+    require(to != NULL, "out of memory");
+    memcpy(to, from, size);
+    return to;
+}
+
+/* Two textures, one with a palette and a key and one with alpha; materials of all kinds. */
+static void paint(mesh_t *mesh, random_source_t *random) {
+    static const uint8_t indices[] = {0x10, 0x32, 0x04, 0x65, 0x87, 0x09, 0xba, 0xdc, 0x0e, 0x10, 0x02}; /* 5 x 3, 2 x 1, 1 x 1 */
+    uint8_t palette[32], texels[32];
+    for (unsigned i = 0; i < 32; i++) {
+        palette[i] = (uint8_t)random_between(random, 0, 255);
+        texels[i] = (uint8_t)random_between(random, 0, 255);
+    }
+    mesh->textures = calloc(2, sizeof *mesh->textures);
+    mesh->surfaces = calloc(mesh->material_count, sizeof *mesh->surfaces);
+    require(mesh->textures && mesh->surfaces, "out of memory");
+    mesh->texture_count = 2;
+    mesh->textures[0] = (mesh_texture_t){.texels = copy_of(indices, 11),
+                                         .size_bytes = 11,
+                                         .palette = copy_of(palette, 32),
+                                         .palette_bytes = 32,
+                                         .width = 5,
+                                         .height = 3,
+                                         .format = TUILE_TEXEL_PALETTE4,
+                                         .levels = 2,
+                                         .flags = TUILE_TEXTURE_KEY | TUILE_TEXTURE_CLAMP_S,
+                                         .key = 2};
+    mesh->textures[1] = (mesh_texture_t){
+        .texels = copy_of(texels, 32), .size_bytes = 32, .width = 4, .height = 4, .format = TUILE_TEXEL_ARGB4444, .levels = 1};
+    for (size_t m = 0; m < mesh->material_count; m++) {
+        mesh->surfaces[m] = (tuile_material_t){.alpha = (uint8_t)(m % 3 ? 255 : 120),
+                                               .emission = {(uint8_t)(40 * m), 0, 9},
+                                               .specular = (uint8_t)(m % 2 * 200),
+                                               .shininess = (uint8_t)(m % 8),
+                                               .texture = (uint8_t)(m % 3 == 2 ? TUILE_NO_TEXTURE : m % 3),
+                                               .blend = (uint8_t)(m % 3),
+                                               .flags = (uint8_t)(m % 16),
+                                               .uv_bits = (uint8_t)(8 - m % 9)};
+    }
+}
+
+/* All that a vertex can have; with a second key frame, unless there is to be a tree. */
+static void dress(mesh_t *mesh, bool morphs, random_source_t *random) {
+    sim_error_t error = {""};
+    paint(mesh, random);
+    mesh->texcoords = calloc(mesh->corner_count, sizeof *mesh->texcoords);
+    mesh->colours = calloc(mesh->corner_count, sizeof *mesh->colours);
+    require(mesh->texcoords && mesh->colours, "out of memory");
+    for (size_t c = 0; c < mesh->corner_count; c++) {
+        const double far = c % 5 == 0 ? 40000 : c % 3 == 0 ? 100 : 4;
+        for (int k = 0; k < 2; k++) {
+            mesh->texcoords[c][k] = random_real(random, -far, far);
+        }
+        for (int k = 0; k < 4; k++) {
+            mesh->colours[c][k] = (uint8_t)random_between(random, 0, 255);
+        }
+    }
+    require(mesh_make_normals(mesh, false, &error) == 0, error.text);
+    if (!morphs) { return; }
+    mesh->morph.positions = copy_of(mesh->positions, mesh->position_count * sizeof *mesh->positions);
+    mesh->morph.normals = copy_of(mesh->normals, mesh->normal_count * sizeof *mesh->normals);
+    mesh->morph.normal_count = mesh->normal_count;
+    mesh->morph.corner_normals = copy_of(mesh->corner_normals, mesh->corner_count * sizeof *mesh->corner_normals);
+    for (size_t p = 0; p < mesh->position_count; p++) {
+        mesh->morph.positions[p][p % 3] += random_real(random, -1, 1);
+    }
+}
+
 /* Whether some face of a model of polygons crosses itself. */
 static bool has_crossing(const tuile_model_t *model) {
     for (uint32_t k = 0; k < model->cluster_count; k++) {
@@ -391,16 +468,21 @@ int main(int argc, char **argv) {
     random_source_t random = random_seed(17);
     bool fractions = false, crossings = false;
     if (argc > 1) { return fuzz_drive(argc, argv, NULL); } /* files */
-    for (unsigned k = 0; k < 12; k++) {
-        const mesh_options_t options = {.tree = k % 2 != 0, .keep_planar = k / 2 == 5};
+    for (unsigned k = 0; k < 16; k++) { /* the last four are small shapes again, with all that a model can have */
+        const bool dressed = k >= 12;
+        const mesh_options_t options = {.tree = k % 2 != 0, .keep_planar = k / 2 == 5 || k / 2 == 7};
         mesh_t mesh;
         tuile_model_t opened;
-        shape_make(&mesh, k / 2);
+        shape_make(&mesh, k / 2 == 6 ? 1 : k / 2);
+        if (dressed) { dress(&mesh, !options.tree, &random); }
         bytes_t model = compile(&mesh, &options);
         require(tuile_model_open(&opened, model.at, model.size) == TUILE_OK && (opened.tree != NULL) == options.tree, "no tree");
         fractions |= options.tree && opened.fractions != NULL;
         crossings |= options.tree && has_crossing(&opened);
-        each_byte(&model, k == 0 && !CHECK_SANITIZED, THINNED);
+        require(!dressed || (opened.texcoords && opened.colours && opened.texture_count == 2 &&
+                             (opened.morph_positions != NULL) == !options.tree),
+                "a model without what it was dressed with");
+        each_byte(&model, k == 0 && !CHECK_SANITIZED, dressed ? 2 * THINNED : THINNED);
         each_length(&model);
         many_bytes(&model, CHECK_SANITIZED ? 200 : 1000, &random);
         report(model.size);

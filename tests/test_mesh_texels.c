@@ -114,8 +114,8 @@ static void a_forced_palette_takes_means_of_neighbours(void **state) {
     const mesh_options_t options = of_format(TUILE_TEXEL_PALETTE4);
     mesh_texture_t texture = make(image_of(32, 1, (const uint8_t(*)[4])pixels), &options);
     for (unsigned i = 0; i < 32; i++) {
-        const unsigned index = texture.texels[i / 2] >> 4 * (i % 2) & 15u;
-        const int red = texture.palette[2 * index + 1] >> 3;
+        const unsigned index = (unsigned)texture.texels[i / 2] >> 4 * (i % 2) & 15u;
+        const int red = (int)(uint8_t)texture.palette[2u * index + 1u] >> 3;
         assert_in_range(red + 2 - (int)i, 0, 4);
     }
     drop(&texture);
