@@ -210,7 +210,8 @@ static void draw_by(const set_t *set, unsigned method) {
 static void pick(const set_t *set) {
     tuile_hit_t hit;
     const size_t size =
-        TUILE_PICK_BYTES((size_t)HEIGHT, (size_t)set->config.cluster_vertices) + TUILE_CORNERS_BYTES(set->config.corners);
+        TUILE_PICK_BYTES((size_t)HEIGHT, (size_t)set->config.cluster_vertices) + TUILE_CORNERS_BYTES(set->config.corners) +
+        (set->model->morph_positions ? TUILE_MORPH_BYTES((size_t)set->config.cluster_vertices, (size_t)set->model->face_count) : 0);
     void *block = malloc(size);
     require(block != NULL, "out of memory");
     const int result = tuile_pick(&set->scene, &set->config, WIDTH / 2, HEIGHT / 2, block, size, &hit);

@@ -69,11 +69,13 @@ enum {
  * normals      vertices x 3 x i8, 127 = 1.0, outward
  * face normals faces x 3 x i8, of the plane, outward
  * materials    materials x 16 bytes, as below
- * texcoords    vertices x 2 x i16: s, t in texels of level 0 of the texture of the vertex's material, times 2^uv_bits of that
- * material. Vertices of materials without one: 0 colours      vertices x 4 x u8: red, green, blue, alpha textures     textures x 20
- * bytes, as below; texels and palettes lie anywhere behind the header, 4-byte aligned morph ...    positions, normals and face
- * normals of the second key frame, in the same steps; positions within low ... high source       faces x u16 or u32: the importer's
- * number of each face, 0-based; several may share one (a split polygon) face bytes   per cluster, at its face_bytes offset:
+ * texcoords    vertices x 2 x i16: s, t in texels of level 0 of the texture of the vertex's material, times 2^uv_bits of it;
+ *              vertices of materials without one have 0
+ * colours      vertices x 4 x u8: red, green, blue, alpha
+ * textures     textures x 20 bytes, as below; texels and palettes lie anywhere behind the header, 4-byte aligned
+ * morph        positions, normals and face normals of the second key frame, in the same steps; positions lie in low ... high
+ * source       faces x u16 or u32: the importer's number of each face, 0-based; several may share one (a split polygon)
+ * face bytes   per cluster, at its face_bytes offset:
  *              MODEL_CLUSTER_TRIANGLES: per face u8 a, b, c, material, 4-byte aligned
  *              MODEL_CLUSTER_POLYGONS:  per face u8 corners n, u8 flags, u8 material, n x u8 corner, u8 n again
  *              a corner is an index into the cluster's vertices; front faces are counter-clockwise.
