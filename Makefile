@@ -89,6 +89,9 @@ $(OBJ)/tests/%.o: tests/%.c Makefile | $(BUILD)/need/test $(BUILD)/need/sim
 	@mkdir -p $(@D)
 	@echo "  $(notdir $(CC)) $<"; $(CC) $(CFLAGS_HOST) -MMD -MP -c $< -o $@
 
+# The default font stands in its object as it is.
+$(OBJ)/sim/font_default.o: sim/fonts/tuile-6x10.bdf
+
 $(TUILE): $(SIM_OBJ) $(CORE_OBJ)
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
 

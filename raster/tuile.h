@@ -47,6 +47,7 @@ typedef enum tuile_error {
     TUILE_ERROR_LIMITS = -7,   /* a model exceeds the cluster_vertices, corners or tree_depth that the renderer was laid out for */
     TUILE_ERROR_TREE = -8,     /* TUILE_TREE, and a model has no display tree */
     TUILE_ERROR_EFFECTS = -9,  /* the scene asks for what config.effects (or the build) leaves out */
+    TUILE_ERROR_FONT = -10,    /* the bytes of a font are not a font, or are damaged */
 } tuile_error_t;
 
 /* One line of English about an error code; never NULL. */
@@ -523,6 +524,7 @@ typedef struct tuile_stats {
     uint32_t instances_sorted; /* tree: instances that no plane separates from one another, drawn by the painter's method */
     uint32_t instances;         /* looked at */
     uint32_t instances_outside; /* dropped whole: outside the window, near or far plane */
+    uint32_t glyphs_missing;   /* overlay: boxes drawn for characters that a font has not */
     uint32_t size_bytes;       /* the block */
     uint32_t least_bytes;      /* the least block for this configuration */
     uint32_t peak_bytes;       /* the block that would have given the same passes */

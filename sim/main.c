@@ -9,6 +9,7 @@ static const char usage[] = "Usage: tuile COMMAND ...\n"
                             "\n"
                             "  tuile render MODEL [options]       draw a model on a simulated panel, as pictures\n"
                             "  tuile mesh IN -o OUT.c|OUT.tuile   compile a model for flash\n"
+                            "  tuile font FONT.bdf -o OUT.c        compile a bitmap font for flash\n"
                             "  tuile faces SCENE                  the visible face of each pixel of a text scene\n"
                             "  tuile coverage W H < FILE          the pixels of polygons given in 1/16 pixel\n"
                             "\n"
@@ -21,6 +22,7 @@ int main(int count, char **arguments) {
     } commands[] = {
         {"render", command_render},
         {"mesh", command_mesh},
+        {"font", command_font},
         {"faces", command_faces},
         {"coverage", command_coverage},
     };

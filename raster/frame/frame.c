@@ -17,6 +17,7 @@ const char *tuile_error_text(int error) {
         return "a model has larger clusters, faces with more corners or a deeper tree than the renderer was laid out for";
     case TUILE_ERROR_TREE: return "a model has no display tree";
     case TUILE_ERROR_EFFECTS: return "the scene asks for effects that the renderer was not laid out or built for";
+    case TUILE_ERROR_FONT: return "not a compiled font, or a damaged one";
     default: return "unknown error";
     }
 }
@@ -276,6 +277,7 @@ int tuile_next(tuile_t *t, tuile_tile_t *tile) {
         tile->height = (uint16_t)((t->tile.bottom - t->tile.top) >> t->samples);
         tile->bytes = t->colours[t->next_buffer];
         tile->size_bytes = (uint32_t)TUILE_WIRE_BYTES(t->config.format, tile->width, tile->height);
+        if (t->given.overlay) { overlay_tile(t); }
         if (TUILE_HAS(RESOLVE) && t->working) { resolve_tile(t); }
         t->next_buffer = (uint8_t)((t->next_buffer + 1) % t->config.buffers);
         t->next_tile += t->config.tile_step;

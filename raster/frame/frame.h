@@ -327,6 +327,11 @@ void shade_now(tuile_t *t, uint32_t number);
 /* The tile, whose samples are in t->working, to t->colours[t->next_buffer]. */
 void resolve_tile(const tuile_t *t);
 
+/* ---- overlay/tile.c: t->given.overlay is not NULL ---- */
+
+/* Lets it draw over the tile's samples. */
+void overlay_tile(tuile_t *t);
+
 /* ---- ramp.c ---- */
 
 /* Where colours are drawn at once a record names its material by a number that is counted through the scene: 256 at most. In

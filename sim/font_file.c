@@ -1,0 +1,147 @@
+/* Fonts in files, and what users say of them. */
+#include "../raster/overlay/font.h"
+#include "c_source.h"
+#include "font.h"
+#include "output.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- ranges ---- */
+
+/* A code point at *text, decimal or 0x and hexadecimal; false when there is none. */
+static bool parse_code(const char **text, uint32_t *code) {
+    char *end;
+    if (**text < '0' || **text > '9') { return false; }
+    const bool hex = (*text)[0] == '0' && ((*text)[1] == 'x' || (*text)[1] == 'X');
+    errno = 0;
+    const unsigned long value = strtoul(*text, &end, hex ? 16 : 10);
+    if (errno || value > FONT_CODE_MAX || end == *text) { return false; }
+    *text = end;
+    *code = (uint32_t)value;
+    return true;
+}
+
+int font_ranges_parse(const char *text, font_range_t ranges[FONT_RANGES_MAX], size_t *count, sim_error_t *error) {
+    const char *at = text;
+    for (*count = 0; *count < FONT_RANGES_MAX;) {
+        font_range_t *range = &ranges[*count];
+        if (!parse_code(&at, &range->first)) { break; }
+        range->last = range->first;
+        if (*at == '-') {
+            at++;
+            if (!parse_code(&at, &range->last) || range->last < range->first) { break; }
+        }
+        ++*count;
+        if (*at == '\0') { return 0; }
+        if (*at++ != ',') { break; }
+    }
+    return sim_fail(error, "--range %.80s: wants up to %d code points or ranges, like 32-126,0xB0,0x20AC", text, FONT_RANGES_MAX);
+}
+
+/* ---- writing ---- */
+
+static int put_source(FILE *file, const uint8_t *bytes, size_t size_bytes, const char *name) {
+    (void)fprintf(file,
+                  "/* A compiled font for tuile_font_open(&font, %s, %zu): the words hold so many bytes.\n"
+                  " * %u glyphs, lines of %u dots. The words are little-endian, as the machine has to be. */\n",
+                  name, size_bytes, bytes[FONT_AT_GLYPHS] | (unsigned)bytes[FONT_AT_GLYPHS + 1] << 8, bytes[FONT_AT_HEIGHT]);
+    return c_put_words(file, bytes, size_bytes, name);
+}
+
+int font_write(const uint8_t *bytes, size_t size_bytes, const char *path, const char *name, sim_error_t *error) {
+    char made_up[C_NAME_MAX_CHARS + 1];
+    const bool source = strcmp(c_extension(path), ".c") == 0;
+    output_t output;
+    if (!source && strcmp(c_extension(path), ".tuilefont") != 0) {
+        return sim_fail(error, "%s: compiled fonts are .tuilefont or .c files; give it one of these ends", path);
+    }
+    if (source && (!name || !*name)) {
+        c_default_name(path, "font_", made_up);
+        name = made_up;
+    }
+    if (source && !c_is_identifier(name)) {
+        return sim_fail(error, "\"%.80s\" is no name for an object in C; take a letter, then letters, digits and _, at most %d",
+                        name, C_NAME_MAX_CHARS);
+    }
+    if (output_open(&output, path, error) != 0) { return -1; }
+    errno = 0;
+    if (source ? put_source(output.file, bytes, size_bytes, name) != 0 : fwrite(bytes, 1, size_bytes, output.file) != size_bytes) {
+        const int reason = errno ? errno : EIO;
+        output_discard(&output);
+        return sim_fail(error, "%s: cannot write: %s", path, strerror(reason));
+    }
+    return output_close(&output, error);
+}
+
+/* ---- reading ---- */
+
+static int read_file(const char *path, uint8_t **bytes, size_t *size_bytes, sim_error_t *error) {
+    FILE *file = fopen(path, "rb");
+    size_t room = 1 << 16, size = 0;
+    uint8_t *read = NULL;
+    if (!file) { return sim_fail(error, "%s: %s", path, strerror(errno)); }
+    for (bool more = true; more; room *= 2) {
+        uint8_t *larger = room <= 2 * FONT_FILE_MAX ? realloc(read, room) : NULL;
+        if (!larger) {
+            free(read);
+            (void)fclose(file);
+            return sim_fail(error, "%s: more than %zu MB; no font of that size is supported", path, FONT_FILE_MAX >> 20);
+        }
+        read = larger;
+        errno = 0;
+        size += fread(read + size, 1, room - size, file);
+        more = size == room;
+    }
+    const bool failed = ferror(file) != 0;
+    const int reason = errno ? errno : EIO;
+    (void)fclose(file);
+    if (failed) {
+        free(read);
+        return sim_fail(error, "%s: %s", path, strerror(reason));
+    }
+    *bytes = read;
+    *size_bytes = size;
+    return 0;
+}
+
+static int compile_text(const char *text, size_t text_bytes, const char *name, uint8_t **bytes, size_t *size_bytes,
+                        sim_error_t *error) {
+    font_source_t source;
+    if (font_bdf_parse(&source, text, text_bytes, name, error) != 0) { return -1; }
+    const int failed = font_compile(&source, NULL, 0, bytes, size_bytes, NULL, error);
+    font_source_free(&source);
+    return failed;
+}
+
+int font_read_source(font_source_t *source, const char *path, sim_error_t *error) {
+    uint8_t *text;
+    size_t text_bytes;
+    if (read_file(path, &text, &text_bytes, error) != 0) { return -1; }
+    const int failed = font_bdf_parse(source, (const char *)text, text_bytes, path, error);
+    free(text);
+    return failed;
+}
+
+int font_load(const char *path, uint8_t **bytes, size_t *size_bytes, sim_error_t *error) {
+    tuile_font_t font;
+    uint8_t *text;
+    size_t text_bytes;
+    if (!path) {
+        return compile_text(font_default_text, (size_t)(font_default_end - font_default_text), "tuile-6x10.bdf", bytes, size_bytes,
+                            error);
+    }
+    if (strcmp(c_extension(path), ".tuilefont") != 0) {
+        if (read_file(path, &text, &text_bytes, error) != 0) { return -1; }
+        const int failed = compile_text((const char *)text, text_bytes, path, bytes, size_bytes, error);
+        free(text);
+        return failed;
+    }
+    if (read_file(path, bytes, size_bytes, error) != 0) { return -1; }
+    const int result = tuile_font_open(&font, *bytes, *size_bytes);
+    if (result == 0) { return 0; }
+    free(*bytes);
+    *bytes = NULL;
+    return sim_fail(error, "%s: %s", path, tuile_error_text(result));
+}
