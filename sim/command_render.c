@@ -10,6 +10,7 @@
 #include "output.h"
 #include "render_format.h"
 #include "render_mesh.h"
+#include "render_overlay.h"
 #include "render_value.h"
 #include "render_world.h"
 #include "sheet.h"
@@ -64,6 +65,7 @@ static void print_usage(FILE *file) {
     (void)fputs(render_mesh_usage, file);
     (void)fputs(render_format_usage, file);
     (void)fputs(render_world_usage, file);
+    (void)fputs(render_overlay_usage, file);
 }
 
 typedef struct render {
@@ -76,6 +78,7 @@ typedef struct render {
     tuile_config_t config;
     render_format_t format;
     render_world_t world;
+    render_overlay_t overlay;
     mesh_options_t mesh_options;
     view_options_t view_options;
 
@@ -195,7 +198,9 @@ static int parse(render_t *r, int count, char **arguments) {
             return -1;
         } else if (!render_format_option(&r->format, &options, argument) &&
                    !render_mesh_option(&r->mesh_options, &options, argument) &&
-                   !render_world_option(&r->world, &options, argument)) {
+                   !render_world_option(&r->world, &options, argument) &&
+
+                   !render_overlay_option(&r->overlay, &options, argument)) {
             options_unknown(&options);
         }
     }
@@ -279,6 +284,7 @@ static int set_up(render_t *r) {
     r->config.width = r->display.width;
     r->config.height = r->display.height;
     if (render_format_apply(&r->format, r->rotate, &r->config) != 0) { return EXIT_FAILURE; }
+    if (render_overlay_apply(&r->overlay, &r->config) != 0) { return EXIT_FAILURE; }
     if (open_renderer(&r->renderer, &r->block, &r->config, &r->sizes, &r->memory_bytes) != 0) { return EXIT_FAILURE; }
     if (view_make(&r->view, &r->view_options, &r->model, r->config.width, r->config.height, (unsigned)r->frames, &r->error) != 0) {
         return command_fail("%s", r->error.text);
@@ -314,6 +320,7 @@ static int write_ids(render_t *r, unsigned frame) {
     config.format = TUILE_FACE_IDS;
     config.aa = TUILE_AA_NONE;
     config.dither = false;
+    config.overlay = NULL;
     uint32_t *ids = calloc(pixels, sizeof *ids);
     if (!ids) { return command_fail("out of memory"); }
     int code = open_renderer(&renderer, &block, &config, &r->sizes, &memory_bytes);
@@ -459,6 +466,7 @@ static int draw_frame(render_t *r, unsigned frame) {
         const char *detail = r->bus.error.text[0] ? r->bus.error.text : r->error.text[0] ? r->error.text : r->chip->fault.text;
         return command_fail("frame %u: %s%s%s", frame, tuile_stream_error_text(result), detail[0] ? ": " : "", detail);
     }
+    render_overlay_frame(&r->overlay, r->frame_ns);
     r->passes_max = r->stats.passes > r->passes_max ? r->stats.passes : r->passes_max;
     r->peak_bytes = r->stats.peak_bytes > r->peak_bytes ? r->stats.peak_bytes : r->peak_bytes;
     (void)snprintf(hash, sizeof hash, "%016llx", (unsigned long long)panel_hash(&glass));
@@ -520,6 +528,7 @@ static int run(render_t *r) {
                      r->model_path, r->stats.faces, r->stats.size_bytes, r->stats.least_bytes, r->peak_bytes, r->passes_max,
                      r->passes_max == 1 ? "" : "es", r->stats.tiles, (unsigned long long)r->wire_bytes, bus);
     }
+    render_overlay_tell(&r->stats);
     return command_finish();
 }
 
@@ -536,5 +545,6 @@ int command_render(int count, char **arguments) {
         free(r.bytes);
         render_world_free(&r.world);
     }
+    render_overlay_free(&r.overlay);
     return code;
 }

@@ -2,6 +2,7 @@
 #include "../raster/overlay/font.h"
 #include "c_source.h"
 #include "font.h"
+#include "input.h"
 #include "output.h"
 
 #include <errno.h>
@@ -77,35 +78,6 @@ int font_write(const uint8_t *bytes, size_t size_bytes, const char *path, const 
 
 /* ---- reading ---- */
 
-static int read_file(const char *path, uint8_t **bytes, size_t *size_bytes, sim_error_t *error) {
-    FILE *file = fopen(path, "rb");
-    size_t room = 1 << 16, size = 0;
-    uint8_t *read = NULL;
-    if (!file) { return sim_fail(error, "%s: %s", path, strerror(errno)); }
-    for (bool more = true; more; room *= 2) {
-        uint8_t *larger = room <= 2 * FONT_FILE_MAX ? realloc(read, room) : NULL;
-        if (!larger) {
-            free(read);
-            (void)fclose(file);
-            return sim_fail(error, "%s: more than %zu MB; no font of that size is supported", path, FONT_FILE_MAX >> 20);
-        }
-        read = larger;
-        errno = 0;
-        size += fread(read + size, 1, room - size, file);
-        more = size == room;
-    }
-    const bool failed = ferror(file) != 0;
-    const int reason = errno ? errno : EIO;
-    (void)fclose(file);
-    if (failed) {
-        free(read);
-        return sim_fail(error, "%s: %s", path, strerror(reason));
-    }
-    *bytes = read;
-    *size_bytes = size;
-    return 0;
-}
-
 static int compile_text(const char *text, size_t text_bytes, const char *name, uint8_t **bytes, size_t *size_bytes,
                         sim_error_t *error) {
     font_source_t source;
@@ -118,7 +90,7 @@ static int compile_text(const char *text, size_t text_bytes, const char *name, u
 int font_read_source(font_source_t *source, const char *path, sim_error_t *error) {
     uint8_t *text;
     size_t text_bytes;
-    if (read_file(path, &text, &text_bytes, error) != 0) { return -1; }
+    if (input_read(path, FONT_FILE_MAX, &text, &text_bytes, error) != 0) { return -1; }
     const int failed = font_bdf_parse(source, (const char *)text, text_bytes, path, error);
     free(text);
     return failed;
@@ -133,12 +105,12 @@ int font_load(const char *path, uint8_t **bytes, size_t *size_bytes, sim_error_t
                             error);
     }
     if (strcmp(c_extension(path), ".tuilefont") != 0) {
-        if (read_file(path, &text, &text_bytes, error) != 0) { return -1; }
+        if (input_read(path, FONT_FILE_MAX, &text, &text_bytes, error) != 0) { return -1; }
         const int failed = compile_text((const char *)text, text_bytes, path, bytes, size_bytes, error);
         free(text);
         return failed;
     }
-    if (read_file(path, bytes, size_bytes, error) != 0) { return -1; }
+    if (input_read(path, FONT_FILE_MAX, bytes, size_bytes, error) != 0) { return -1; }
     const int result = tuile_font_open(&font, *bytes, *size_bytes);
     if (result == 0) { return 0; }
     free(*bytes);

@@ -383,6 +383,7 @@ int show_draw(const show_view_t *view, const tuile_config_t *config, const tuile
     c.dither = false;
     c.effects = 0;
     c.format = TUILE_FACE_IDS;
+    c.overlay = NULL;
     if (!status) { status = draw(&w, &c, scene, block, &stats, error); }
     c.format = TUILE_RGB565_LE;
     w.counts = true;
