@@ -199,7 +199,6 @@ static int parse(render_t *r, int count, char **arguments) {
         } else if (!render_format_option(&r->format, &options, argument) &&
                    !render_mesh_option(&r->mesh_options, &options, argument) &&
                    !render_world_option(&r->world, &options, argument) &&
-
                    !render_overlay_option(&r->overlay, &options, argument)) {
             options_unknown(&options);
         }
@@ -536,8 +535,9 @@ int command_render(int count, char **arguments) {
     render_t r;
     memset(&r, 0, sizeof r);
     int code = parse(&r, count, arguments);
-    if (code < 0) { return command_finish(); }
-    if (code == 0) {
+    if (code < 0) {
+        code = command_finish();
+    } else if (code == 0) {
         code = run(&r);
         sim_pictures_free(r.pictures, (size_t)r.frames);
         if (r.chip) { r.chip->destroy(r.chip); }
