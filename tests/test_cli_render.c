@@ -307,6 +307,8 @@ static void the_report_is_json_with_every_figure_of_every_frame(void **state) {
                                          "height",
                                          "tile_width",
                                          "tile_height",
+                                         "instances",
+                                         "instances_outside",
                                          "faces",
                                          "clusters",
                                          "clusters_outside",

@@ -100,10 +100,15 @@ int bin_instance_open(tuile_t *t, unsigned number) {
     t->instance_number = (uint16_t)number;
     tuile_scene_t sampled = *scene;
     sampled.camera = t->camera;
-    const int error = transform_make(&t->transform, &sampled, t->instance, t->config.width, t->config.height);
+    int error = transform_check(&sampled, t->instance);
     if (error) { return error; }
-    transform_region(&t->transform, &t->region);
-    if (cull_model_outside(&t->transform, t->instance->model)) {
+    const bool outside = cull_instance_outside(&t->camera, t->instance, &t->region);
+    if (!outside) {
+        error = transform_make(&t->transform, &sampled, t->instance, t->config.width, t->config.height);
+        if (error) { return error; }
+        transform_region(&t->transform, &t->region);
+    }
+    if (outside || cull_model_outside(&t->transform, t->instance->model)) {
         t->stats.instances_outside++;
         return BIN_CULLED;
     }

@@ -12,6 +12,7 @@
 #include "cull.h"
 
 #include "model.h"
+#include "wide.h"
 
 #define AXIS_LENGTH_MAX 128 /* axes are about 127 long; one that were longer would cull nothing */
 
@@ -32,6 +33,65 @@ bool cull_outside(const transform_t *transform, const uint8_t *cluster) {
 bool cull_model_outside(const transform_t *transform, const tuile_model_t *model) {
     return sphere_outside(transform, model->centre[0], model->centre[1], model->centre[2], model->radius);
 }
+
+/* ---- whole instances ---- */
+
+typedef struct view_sphere {
+    int64_t at[3], radius; /* view space, Q.16; |at| < 2^33, radius < 2^32 */
+} view_sphere_t;
+
+/* False when it is too far away or too large for the arithmetic here. The radius holds all roundings: half a unit for each axis in
+ * the world, one for each in view space. */
+static bool view_sphere(view_sphere_t *sphere, const tuile_camera_t *camera, const tuile_instance_t *instance) {
+    const tuile_model_t *model = instance->model;
+    const tuile_pose_t *pose = &instance->pose;
+    const wide_t step = wide_multiply(wide_scale(model->step), wide_scale(pose->scale));
+    int64_t way[3];
+    for (int i = 0; i < 3; i++) {
+        int64_t sum = 0; /* Q.30; |sum| < 3 * 2^61 */
+        for (int j = 0; j < 3; j++) {
+            sum += pose->rotation[i][j] * ((int64_t)model->offset[j] + model->centre[j]);
+        }
+        way[i] = wide_to_integer(wide_multiply(wide_make(sum, -30), step), 16) + pose->translation[i] - camera->eye[i];
+        if (way[i] > INT32_MAX || way[i] < INT32_MIN) { return false; }
+    }
+    for (int i = 0; i < 3; i++) {
+        int64_t sum = 0; /* |sum| < 3 * 2^61 */
+        for (int j = 0; j < 3; j++) {
+            sum += camera->rotation[i][j] * way[j];
+        }
+        sphere->at[i] = sum >> 30;
+    }
+    sphere->radius = wide_to_integer(wide_multiply(wide_make((int64_t)model->radius + 1, 0), step), 16) + 8;
+    return sphere->radius < ((int64_t)1 << 32);
+}
+
+static int64_t magnitude(int64_t a) { return a < 0 ? -a : a; }
+
+/* Does the sphere lie wholly where focal * x + room * w < 0? x: sideways, w: along the view; room: Q.16 pixels. Orthographic: where
+ * focal * x + room < 0. Factors are cut to 24 bits, so a product is off by its coordinate. The length of a normal (a, b) is at most
+ * the larger of both and half the smaller. */
+static bool beyond_side(const view_sphere_t *sphere, bool perspective, q16_16_t focal, int64_t x, int64_t room) {
+    const int64_t w = -sphere->at[2], a = focal >> 8, b = room >> 8;
+    if (!perspective) { return a * x + room * 256 + sphere->radius * (a + 2) + magnitude(x) < 0; }
+    const int64_t size = magnitude(b), length = a > size ? a + size / 2 : size + a / 2;
+    return a * x + b * w + sphere->radius * (length + 3) + magnitude(x) + magnitude(w) < 0;
+}
+
+bool cull_instance_outside(const tuile_camera_t *camera, const tuile_instance_t *instance, const transform_region_t *region) {
+    const bool perspective = camera->projection == TUILE_PERSPECTIVE;
+    view_sphere_t sphere;
+    if (!view_sphere(&sphere, camera, instance)) { return false; }
+    const int64_t x = sphere.at[0], y = sphere.at[1], w = -sphere.at[2], one = 65536;
+    /* One pixel more on each side: snapping may move a vertex by half a sixteenth. */
+    return w + sphere.radius < camera->near || w - sphere.radius > camera->far ||
+           beyond_side(&sphere, perspective, camera->focal_x, x, camera->centre_x - (region->left - 1) * one) ||
+           beyond_side(&sphere, perspective, camera->focal_x, -x, (region->right + 1) * one - camera->centre_x) ||
+           beyond_side(&sphere, perspective, camera->focal_y, -y, camera->centre_y - (region->top - 1) * one) ||
+           beyond_side(&sphere, perspective, camera->focal_y, y, (region->bottom + 1) * one - camera->centre_y);
+}
+
+/* ---- faces that are turned away ---- */
 
 bool cull_faces_away(const transform_t *transform, const uint8_t *cluster) {
     const uint32_t cutoff = cluster[CLUSTER_AT_CUTOFF];

@@ -175,7 +175,7 @@ static bool mirrored(const tuile_scene_t *scene, const tuile_instance_t *instanc
     return odd;
 }
 
-static int check(const tuile_scene_t *scene, const tuile_instance_t *instance) {
+int transform_check(const tuile_scene_t *scene, const tuile_instance_t *instance) {
     const tuile_camera_t *camera = &scene->camera;
     if (instance->model == NULL || instance->pose.scale.mantissa == 0 || instance->pose.scale.exponent < -1000 ||
         instance->pose.scale.exponent > 1000 || scene->light_count > TRANSFORM_LIGHTS_MAX) {
@@ -255,7 +255,7 @@ int transform_make(transform_t *transform, const tuile_scene_t *scene, const tui
                    uint16_t window_height) {
     const tuile_camera_t *camera = &scene->camera;
     wide_row_t view[3];
-    int error = check(scene, instance);
+    int error = transform_check(scene, instance);
     if (error) { return error; }
 
     memset(transform, 0, sizeof *transform);

@@ -64,6 +64,9 @@ typedef struct transform_region {
     uint16_t left, top, right, bottom;
 } transform_region_t;
 
+/* What can be told of camera, pose and lights before anything is computed: 0, TUILE_ERROR_CAMERA or TUILE_ERROR_ARGUMENT. */
+int transform_check(const tuile_scene_t *scene, const tuile_instance_t *instance);
+
 /* 0, TUILE_ERROR_CAMERA, TUILE_ERROR_ARGUMENT or TUILE_ERROR_RANGE. */
 int transform_make(transform_t *transform, const tuile_scene_t *scene, const tuile_instance_t *instance, uint16_t window_width,
                    uint16_t window_height);
