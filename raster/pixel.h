@@ -23,6 +23,17 @@ TUILE_INLINE uint32_t pixel_div255(uint32_t x) { return (x * 257u + 257u) >> 16;
 
 #define PIXEL_RGB(red, green, blue) ((uint32_t)(red) << 16 | (uint32_t)(green) << 8 | (uint32_t)(blue))
 
+/* A component to 0 ... most by rounding. */
+TUILE_INLINE uint32_t pixel_steps(uint32_t component, uint32_t most) { return (component * most + 127u) / 255u; }
+
+TUILE_INLINE uint32_t pixel_swap16(uint32_t x) { return (x >> 8 | x << 8) & 0xffffu; }
+
+/* PIXEL_RGB565_BE or _LE. */
+TUILE_INLINE uint32_t pixel_pack565(pixel_kind_t kind, uint32_t red, uint32_t green, uint32_t blue) {
+    const uint32_t value = pixel_steps(red, 31) << 11 | pixel_steps(green, 63) << 5 | pixel_steps(blue, 31);
+    return kind == PIXEL_RGB565_BE ? pixel_swap16(value) : value; /* stored by a little-endian machine */
+}
+
 /* How samples of a format are kept. */
 pixel_kind_t pixel_kind_of(uint8_t format, bool dither);
 
@@ -34,6 +45,11 @@ uint32_t pixel_pack(pixel_kind_t kind, uint32_t rgb);
 uint32_t pixel_unpack(pixel_kind_t kind, uint32_t sample);
 
 /* colour * light / 255, rounded, as a sample. light 0 ... 255. */
-uint32_t pixel_lit(pixel_kind_t kind, const uint8_t colour[3], uint32_t light);
+TUILE_INLINE uint32_t pixel_lit(pixel_kind_t kind, const uint8_t colour[3], uint32_t light) {
+    const uint32_t red = pixel_div255(colour[0] * light + 127u), green = pixel_div255(colour[1] * light + 127u),
+                   blue = pixel_div255(colour[2] * light + 127u);
+    return TUILE_LIKELY(kind <= PIXEL_RGB565_LE) ? pixel_pack565(kind, red, green, blue)
+                                                 : pixel_pack(kind, PIXEL_RGB(red, green, blue));
+}
 
 #endif

@@ -105,6 +105,7 @@ typedef enum tuile_material_flags {
     TUILE_MATERIAL_BILINEAR = 2,  /* texels are interpolated, else the nearest one is taken */
     TUILE_MATERIAL_UNLIT = 4,     /* colour and texture as they are */
     TUILE_MATERIAL_VERTEX_COLOURS = 8, /* the vertex colours of the model take the place of `colour`, which is their mean */
+    TUILE_MATERIAL_REPLACED = 16, /* by its texture: `colour` is what faces have where textures are not drawn, and else white */
 } tuile_material_flags_t;
 
 #define TUILE_NO_TEXTURE 255u

@@ -24,6 +24,14 @@ typedef struct triangle {
     } side;
 } triangle_t;
 
+/* All sides are short (edge.h); v0 is a topmost vertex. */
+TUILE_INLINE bool triangle_sides_short(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2) {
+    const int32_t x0 = v0->x, x1 = v1->x, x2 = v2->x;
+    const int32_t least = x0 < x1 ? (x0 < x2 ? x0 : x2) : (x1 < x2 ? x1 : x2),
+                  most = x0 > x1 ? (x0 > x2 ? x0 : x2) : (x1 > x2 ? x1 : x2);
+    return most - least < SHORT_SIDE && (v1->y < v2->y ? v2->y : v1->y) - v0->y < SHORT_SIDE;
+}
+
 /* v0 is a topmost vertex, v0 v1 v2 is counter-clockwise as seen, with an area above 0, and it spans some row >= first_row.
  * gouraud: light gradients are wanted. Leaves size_bytes, record and value alone. */
 void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t first_row,

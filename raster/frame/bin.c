@@ -76,6 +76,7 @@ static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
 
 void bin_begin(tuile_t *t) {
     t->stats.passes++;
+    t->textured_source = UINT16_MAX;
     t->vertex_count = t->record_count = 0;
     t->instance = NULL;
     for (uint32_t row = t->pass_first; row < t->pass_end; row++) {

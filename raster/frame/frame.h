@@ -12,6 +12,7 @@
 #define TUILE_FRAME_FRAME_H
 
 #include "../fill/polygon.h"
+#include "../fill/textured.h"
 #include "../fill/triangle.h"
 #include "../geometry/clip.h"
 #include "../geometry/cull.h"
@@ -19,6 +20,7 @@
 #include "../geometry/transform.h"
 #include "../geometry/vertex.h"
 #include "../pixel.h"
+#include "../surface/textured.h"
 #include "../tuile.h"
 
 #define RAMP_COLOURS 64
@@ -186,6 +188,13 @@ typedef struct tuile {
     uint16_t material_base; /* of the instance's model, where materials are counted, else 0 */
     uint16_t instance_number;
     uint16_t source; /* of the faces that are being binned */
+    /* Textured faces may be drawn at once: the method has depth, samples are RGB565, and there is no fog. */
+    bool textured;
+    uint16_t textured_source; /* what was asked for last: a source of vertices, UINT16_MAX: none; and a material */
+    uint16_t textured_number;
+    textured_material_t textured_last;
+    const int16_t *textured_texcoords;
+    bool numbered; /* some face of the tile was drawn as a number */
     raster_tile_t tile;
     span_kind_t span_kind;
     /* The row of tiles that is being drawn. */
@@ -311,6 +320,11 @@ polygon_ring_t frame_record_ring(const tuile_t *t, const record_t *record);
 /* The rows of pixel centres that a record's face covers. */
 void frame_record_rows(const tuile_t *t, const record_t *record, int32_t *first, int32_t *end);
 
+/* ---- textured.c: the fast way of a texture (fill/textured.h) ---- */
+
+/* A record's triangle set up to be drawn at once. False: it is to be drawn as a number. */
+bool textured_start(tuile_t *t, textured_t *textured, const record_t *record, int32_t row);
+
 /* ---- shade.c: deferred shading, t->numbers is not NULL ---- */
 
 /* A tile of background, and no face seen in it yet. */
@@ -347,9 +361,6 @@ bool frame_first_use(const tuile_scene_t *scene, unsigned instance);
 
 /* The number of the first material of an instance's model. */
 uint32_t frame_material_base(const tuile_scene_t *scene, unsigned instance);
-
-/* A material, counted through the models of the scene. */
-tuile_material_t frame_material(const tuile_t *t, uint32_t material);
 
 /* The sample of a face in one colour: its material in the light of its record. */
 uint32_t frame_flat(const tuile_t *t, const record_t *record);

@@ -25,27 +25,36 @@ tuile_material_t frame_instance_material(const tuile_instance_t *instance, uint3
     return instance->materials ? instance->materials[material] : tuile_model_material(instance->model, material);
 }
 
-tuile_material_t frame_material(const tuile_t *t, uint32_t material) {
+/* The instance whose materials, or whose model's, a number is among; *material becomes the number there. NULL: none. */
+static const tuile_instance_t *material_owner(const tuile_t *t, uint32_t *material) {
     const tuile_scene_t *scene = t->scene;
     for (unsigned i = 0; i < scene->instance_count; i++) {
         const tuile_instance_t *instance = &scene->instances[i];
-        if (!frame_first_use(scene, i)) { continue; }
-        if (material < instance->model->material_count) { return frame_instance_material(instance, material); }
-        material -= instance->model->material_count;
+        if (i > 0 && !frame_first_use(scene, i)) { continue; }
+        if (*material < instance->model->material_count) { return instance; }
+        *material -= instance->model->material_count;
     }
-    return (tuile_material_t){.alpha = 255, .texture = TUILE_NO_TEXTURE};
+    return NULL;
+}
+
+/* Its colour alone. */
+TUILE_INLINE const uint8_t *material_colour(const tuile_t *t, uint32_t material) {
+    const tuile_instance_t *instance = t->scene->instances;
+    if (TUILE_UNLIKELY(material >= instance->model->material_count)) { instance = material_owner(t, &material); }
+    if (instance == NULL) { return t->scene->background; }
+    return instance->materials ? instance->materials[material].colour
+                               : instance->model->materials + MODEL_MATERIAL_BYTES * material;
 }
 
 uint32_t frame_flat(const tuile_t *t, const record_t *record) {
-    const tuile_material_t material = frame_material(t, record->material);
-    return pixel_lit((pixel_kind_t)t->pixel_kind, material.colour, record->light);
+    return pixel_lit((pixel_kind_t)t->pixel_kind, material_colour(t, record->material), record->light);
 }
 
 TUILE_NOINLINE void frame_ramp_make(tuile_t *t, uint32_t material, uint32_t slot) {
     uint16_t *ramp = t->ramps + slot * RAMP_COLOURS;
-    const tuile_material_t made = frame_material(t, material);
+    const uint8_t *colour = material_colour(t, material);
     for (uint32_t i = 0; i < RAMP_COLOURS; i++) {
-        ramp[i] = (uint16_t)pixel_lit((pixel_kind_t)t->pixel_kind, made.colour, (i * 255u + 31u) / 63u);
+        ramp[i] = (uint16_t)pixel_lit((pixel_kind_t)t->pixel_kind, colour, (i * 255u + 31u) / 63u);
     }
     t->ramp_tags[slot] = (int16_t)material;
 }

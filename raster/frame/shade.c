@@ -3,11 +3,15 @@
  * out. So a face is set up if it is seen, no list of faces is needed, and nothing is kept from one tile to the next.
  *
  * Where faces are drawn as they come (an immediate pass) there is never more than one number in the tile.
+ *
+ * Where some faces are drawn with their texture at once (textured.c) they leave the numbers under them as they are: those are told
+ * by the depth, which is no longer that of the number's face but greater.
  */
 #include "../tune.h"
 
 #include "frame.h"
 
+#include "../memory.h"
 #include "../surface/surface.h"
 
 void shade_clear(tuile_t *t) {
@@ -15,18 +19,20 @@ void shade_clear(tuile_t *t) {
     uint8_t *to = t->working ? t->working : t->colours[t->next_buffer];
     const bool wide = pixel_bytes((pixel_kind_t)t->pixel_kind) == 4;
     frame_fill_words(t->numbers, 0, samples * sizeof(uint16_t));
+    t->numbered = !t->textured;
     frame_fill_words(to, wide ? t->background : t->background * 0x10001u, samples * (wide ? 4 : 2));
 }
 
 /* ---- a record as a face to be shaded ---- */
 
-static void corner_open(const tuile_t *t, const source_slot_t *source, uint32_t first, const vertex_t *vertex,
+/* The attributes of the vertex in slot `slot`. */
+static void corner_open(const tuile_t *t, const record_surface_t *extra, const tuile_model_t *model, uint32_t slot,
                         surface_corner_t *corner) {
-    const uint32_t k = (uint32_t)(vertex - t->vertices) - first;
-    const tuile_model_t *model = t->scene->instances[source->instance].model;
+    const source_slot_t *source = (const source_slot_t *)(const void *)&t->vertices[extra->source];
+    const uint32_t k = slot - extra->source - SOURCE_SLOTS;
     clip_attributes_t *to = &corner->attributes;
-    corner->at = *vertex;
-    if (source->attributes) {
+    corner->at = t->vertices[slot];
+    if (TUILE_UNLIKELY(source->attributes)) {
         *to = ((const clip_attributes_t *)(const void *)&t->vertices[source->attributes])[k];
         return;
     }
@@ -35,12 +41,8 @@ static void corner_open(const tuile_t *t, const source_slot_t *source, uint32_t 
         to->s = model_i16(model->texcoords + 4 * number) * 256;
         to->t = model_i16(model->texcoords + 4 * number + 2) * 256;
     }
-    const uint8_t *light = source->colours ? (const uint8_t *)(t->vertices + source->colours) + 4 * (size_t)k : NULL;
-    const uint8_t *colour = model->colours ? model->colours + 4 * number : NULL;
-    for (unsigned i = 0; i < 4; i++) {
-        to->light[i] = light ? light[i] : 0;
-        to->colour[i] = colour ? colour[i] : 255;
-    }
+    if (source->colours) { memcpy(to->light, (const uint8_t *)(t->vertices + source->colours) + 4 * (size_t)k, 4); }
+    if (model->colours) { memcpy(to->colour, model->colours + 4 * number, 4); }
 }
 
 /* Of a polygon's fan the largest triangle, which snapping disturbs least. */
@@ -76,7 +78,7 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
         largest_triangle(&ring, corners);
     }
     for (unsigned i = 0; i < 3; i++) {
-        corner_open(t, source, extra->source + SOURCE_SLOTS, corners[i], &face->corner[i]);
+        corner_open(t, extra, instance->model, (uint32_t)(corners[i] - t->vertices), &face->corner[i]);
     }
     face->material = frame_instance_material(instance, record->material);
     if (face->material.texture < instance->model->texture_count) {
@@ -88,6 +90,7 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
         face->material.colour[0] = face->material.colour[1] = face->material.colour[2] = 255;
     }
     face->coloured = source->colours != 0 || source->is_coloured;
+    face->triangle = triangle;
     /* A polygon that is in one light all over, or that is not convex. */
     face->flat = t->config.shade == TUILE_FLAT || (!triangle && !face->coloured);
     face->flat_light[0] = record->light;
@@ -153,6 +156,36 @@ static void record_box(const tuile_t *t, const record_t *record, int32_t *left, 
     *bottom = *bottom > t->tile.bottom ? t->tile.bottom : *bottom;
 }
 
+/* Takes out the numbers of a face where another one has been drawn over it. */
+static TUILE_NOINLINE void clear_hidden(tuile_t *t, const record_t *record, uint16_t value, int32_t left, int32_t top,
+                                        int32_t right, int32_t bottom) {
+    const bool triangle = frame_record_is_triangle(record);
+    depth_plane_t plane;
+    if (triangle) {
+        const vertex_t *v0 = &t->vertices[record->v0];
+        triangle_planes(v0, v0 + record->d1, v0 + record->d2, &plane, NULL);
+    } else {
+        const polygon_ring_t ring = frame_record_ring(t, record);
+        (void)polygon_plane(&ring, &plane);
+    }
+    for (int32_t y = top; y < bottom; y++) {
+        const size_t row = (size_t)(y - t->tile.top) * (size_t)t->tile.stride_px;
+        for (int32_t x = left; x < right; x++) {
+            const size_t at = row + (size_t)(x - t->tile.left);
+            if (t->numbers[at] != value) { continue; }
+            /* A triangle's plane is right modulo 2^32, however steep. */
+            const uint32_t z = (uint32_t)plane.z + (uint32_t)plane.dx * (uint32_t)x + (uint32_t)plane.dy * (uint32_t)y;
+            if (t->tile.depth[at] != (triangle ? (uint16_t)(z >> 16) : depth_at(&plane, x, y))) { t->numbers[at] = 0; }
+        }
+    }
+}
+
+#if defined(__GNUC__)
+typedef uint64_t __attribute__((may_alias)) numbers_t; /* four of them */
+#else
+typedef uint64_t numbers_t;
+#endif
+
 /* The face of a record from row `from` on. */
 static TUILE_NOINLINE void shade_record(tuile_t *t, uint32_t number, int32_t from) {
     const record_t *record = frame_record(t, number);
@@ -162,16 +195,22 @@ static TUILE_NOINLINE void shade_record(tuile_t *t, uint32_t number, int32_t fro
     record_box(t, record, &left, &top, &right, &bottom);
     face_open(t, record, &face);
     surface_make(&surface, &face, (pixel_kind_t)t->pixel_kind);
-    shade_box(t, &surface, (uint16_t)(number + 1), left, top > from ? top : from, right, bottom);
+    top = top > from ? top : from;
+    if (t->textured && !t->immediate) { clear_hidden(t, record, (uint16_t)(number + 1), left, top, right, bottom); }
+    shade_box(t, &surface, (uint16_t)(number + 1), left, top, right, bottom);
 }
 
 void shade_tile(tuile_t *t) {
-    const int32_t stride = t->tile.stride_px;
-    for (int32_t y = t->tile.top; y < t->tile.bottom; y++) {
-        const uint16_t *row = t->numbers + (size_t)(y - t->tile.top) * (size_t)stride;
-        for (int32_t i = 0; i < stride; i++) {
-            if (row[i] != 0) { shade_record(t, row[i] - 1u, y); }
+    if (!t->numbered) { return; }
+    const uint32_t stride = (uint32_t)t->tile.stride_px, count = stride * (uint32_t)(t->tile.bottom - t->tile.top);
+    for (uint32_t at = 0; at < count; at++) {
+        if (at % 4 == 0) { /* nothing seen in four samples: the room behind the last one is 0 up to a multiple of 64 bytes */
+            while (at < count && *(const numbers_t *)(const void *)(t->numbers + at) == 0) {
+                at += 4;
+            }
+            if (at >= count) { return; }
         }
+        if (t->numbers[at] != 0) { shade_record(t, t->numbers[at] - 1u, t->tile.top + (int32_t)(at / stride)); }
     }
 }
 

@@ -59,8 +59,8 @@ static bool check_texture(const tuile_model_t *model, const uint8_t *at) {
 }
 
 static bool check_material(const tuile_model_t *model, const uint8_t *at) {
-    const unsigned flags =
-        TUILE_MATERIAL_TWO_SIDED | TUILE_MATERIAL_BILINEAR | TUILE_MATERIAL_UNLIT | TUILE_MATERIAL_VERTEX_COLOURS;
+    const unsigned flags = TUILE_MATERIAL_TWO_SIDED | TUILE_MATERIAL_BILINEAR | TUILE_MATERIAL_UNLIT |
+                           TUILE_MATERIAL_VERTEX_COLOURS | TUILE_MATERIAL_REPLACED;
     const unsigned texture = at[MATERIAL_AT_TEXTURE];
     if (texture != TUILE_NO_TEXTURE && (texture >= model->texture_count || !model->texcoords)) { return false; }
     if ((at[MATERIAL_AT_FLAGS] & TUILE_MATERIAL_VERTEX_COLOURS) != 0 && !model->colours) { return false; }

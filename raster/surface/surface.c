@@ -25,6 +25,12 @@ static void store(pixel_kind_t kind, const uint32_t *argb, int32_t count, void *
         return;
     }
     uint16_t *to = samples;
+    if (kind <= PIXEL_RGB565_LE) {
+        for (int32_t i = 0; i < count; i++) {
+            to[i] = (uint16_t)pixel_pack565(kind, argb[i] >> 16 & 255u, argb[i] >> 8 & 255u, argb[i] & 255u);
+        }
+        return;
+    }
     for (int32_t i = 0; i < count; i++) {
         to[i] = (uint16_t)pixel_pack(kind, argb[i]);
     }
@@ -93,22 +99,48 @@ static texture_corner_t texture_corner(const surface_corner_t *corner, unsigned 
                               corner->attributes.t >> uv_bits};
 }
 
-static void texture_open(surface_t *surface, const surface_face_t *face) {
-    const unsigned bits = face->material.uv_bits;
-    const texture_corner_t corner[3] = {texture_corner(&face->corner[0], bits), texture_corner(&face->corner[1], bits),
-                                        texture_corner(&face->corner[2], bits)};
+/* The light of the three corners as a plane; `a` is a topmost corner, counter-clockwise. */
+static void white_light(surface_t *surface, const vertex_t *a, const vertex_t *b, const vertex_t *c) {
+    depth_plane_t unused;
+    triangle_planes(a, b, c, &unused, &surface->light);
+}
+
+/* ---- the fast way of a texture ---- */
+
+static void fill_textured(const surface_t *surface, int32_t x, int32_t y, int32_t count, void *samples) {
+    const light_plane_t *light = &surface->light;
+    textured_run(&surface->map, x, y, count, light->light + light->dx * (uint32_t)x + light->dy * (uint32_t)y, light->dx,
+                 surface->kind == PIXEL_RGB565_BE, samples);
+}
+
+static bool textured_open(surface_t *surface, const surface_face_t *face, const texture_corner_t corner[3], int32_t alike) {
+    const vertex_t *v0 = &face->corner[0].at, *v1 = &face->corner[1].at, *v2 = &face->corner[2].at;
+    const uint8_t *flat = face->flat_light;
+    if ((face->flat && (flat[0] != flat[1] || flat[0] != flat[2])) || !face->triangle || face->coloured || face->tinted ||
+        surface->kind > PIXEL_RGB565_LE || !triangle_sides_short(v0, v1, v2)) {
+        return false;
+    }
+    textured_material_t material;
+    textured_material_open(&material, &face->material, &face->texture, face->texturing, face->perspective);
+    if (!material.fit || !textured_map(&surface->map, &material, &corner[0], &corner[1], &corner[2], 0)) { return false; }
+    if (alike < 0) {
+        white_light(surface, v0, v1, v2);
+    } else {
+        surface->light = (light_plane_t){(uint32_t)alike << 24, 0, 0};
+    }
+    surface->fill = fill_textured;
+    return true;
+}
+
+/* ---- any texture ---- */
+
+static void texture_open(surface_t *surface, const surface_face_t *face, const texture_corner_t corner[3]) {
     texture_plane_make(
         &surface->texture, &face->texture, corner,
         (texture_wish_t){.bilinear = face->material.flags & TUILE_MATERIAL_BILINEAR && !(face->texturing & TUILE_TEXTURE_NEAREST),
                          .affine = face->texturing & TUILE_TEXTURE_AFFINE,
                          .mips = !(face->texturing & TUILE_TEXTURE_NO_MIPS),
                          .perspective = face->perspective});
-}
-
-/* The light of the three corners as a plane; `a` is a topmost corner, counter-clockwise. */
-static void white_light(surface_t *surface, const vertex_t *a, const vertex_t *b, const vertex_t *c) {
-    depth_plane_t unused;
-    triangle_planes(a, b, c, &unused, &surface->light);
 }
 
 /* The light of a face that is lit alike all over, or -1. */
@@ -122,8 +154,9 @@ static int32_t light_alike(const surface_face_t *face) {
 static uint32_t rgb_lit(const uint8_t colour[3], uint32_t light) { return pixel_lit(PIXEL_RGB888, colour, light); }
 
 void surface_make(surface_t *surface, const surface_face_t *face, pixel_kind_t kind) {
-    const uint8_t *colour = face->material.colour;
+    static const uint8_t white[3] = {255, 255, 255};
     const bool textured = face->material.texture != TUILE_NO_TEXTURE;
+    const uint8_t *colour = textured && face->material.flags & TUILE_MATERIAL_REPLACED ? white : face->material.colour;
     const int32_t alike = light_alike(face);
     surface_stage_fn *stage = surface->stage;
     surface->kind = kind;
@@ -134,10 +167,15 @@ void surface_make(surface_t *surface, const surface_face_t *face, pixel_kind_t k
         surface->fill = surface_fill_same;
         return;
     }
+    texture_corner_t corner[3];
+    for (unsigned i = 0; textured && i < 3; i++) {
+        corner[i] = texture_corner(&face->corner[i], face->material.uv_bits);
+    }
+    if (textured && textured_open(surface, face, corner, alike)) { return; }
     surface->argb = (uint32_t)face->material.alpha << 24 | rgb_lit(colour, alike >= 0 ? (uint32_t)alike : 255u);
     *stage++ = textured ? stage_texture : stage_same;
     if (textured) {
-        texture_open(surface, face);
+        texture_open(surface, face, corner);
         if (surface->argb != 0xffffffffu) { *stage++ = stage_multiply; }
     }
     if (alike < 0) {

@@ -14,6 +14,7 @@
 #include "../geometry/clip.h"
 #include "../pixel.h"
 #include "texture.h"
+#include "textured.h"
 
 #define SURFACE_RUN 32 /* samples a stage is given at once, at most */
 
@@ -29,10 +30,11 @@ typedef struct surface_face {
     surface_corner_t corner[3];
     tuile_material_t material;
     tuile_texture_t texture; /* where material.texture is not TUILE_NO_TEXTURE */
+    bool triangle;           /* not a part of a polygon: the first corner is a topmost one, all are counter-clockwise */
     bool flat;               /* in one light: */
     uint8_t flat_light[3];   /* red, green, blue */
     bool coloured;           /* not flat: attributes.light is the light, else that of `at` */
-    bool tinted;             /* attributes.colour differs from white, opaque */
+    bool tinted;             /* attributes.colour is there; else all is white, opaque */
     bool perspective;        /* depth is proportional to 1 / w: texture coordinates follow it */
     uint8_t texturing;       /* tuile_texturing_t */
 } surface_face_t;
@@ -56,6 +58,7 @@ struct surface {
     light_plane_t light; /* white light, Q8.24, as fill/triangle.c has it */
     light_plane_t channel[5]; /* red, green, blue, highlight, alpha: surface/light.h */
     texture_plane_t texture;
+    textured_map_t map;  /* the fast way */
     depth_plane_t depth; /* where fog or a layer wants it */
     uint8_t blend;       /* tuile_blend_t, where the face is translucent */
 };

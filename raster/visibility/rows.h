@@ -17,10 +17,18 @@
 
 #include "../memory.h"
 
+/* How a method draws its rows: `tested` below, a constant wherever these functions are called. */
+enum {
+    ROWS_PAINTED = false,
+    ROWS_TESTED = true,
+    ROWS_TEXTURED = 2, /* tested; and faces that may be drawn with their texture at once, are */
+};
+
 /* A state in the stream, seen as any of its kinds. */
 typedef union state {
     fill_head_t head;
     triangle_t triangle;
+    textured_t textured;
     polygon_t polygon;
 } state_t;
 
@@ -31,8 +39,12 @@ bool piece_skip(const tuile_t *t, state_t *state, const record_t *record, int32_
 
 /* `face` has the corners, `record` the rest. */
 TUILE_INLINE bool face_start(tuile_t *t, state_t *state, const record_t *face, const record_t *record, uint32_t number, int32_t row,
-                             bool tested) {
+                             unsigned tested) {
     t->stats.faces_setup++;
+    if (tested == ROWS_TEXTURED && frame_record_is_triangle(face) && textured_start(t, &state->textured, record, row)) {
+        state->head.record = (uint16_t)number;
+        return true;
+    }
     if (TUILE_LIKELY(frame_record_is_triangle(face))) {
         const vertex_t *v0 = &t->vertices[face->v0], *v1 = v0 + face->d1, *v2 = v0 + face->d2;
         if (tested) {
@@ -55,16 +67,23 @@ TUILE_INLINE bool face_start(tuile_t *t, state_t *state, const record_t *face, c
 }
 
 /* False when the face covers no row from `row` on. */
-TUILE_INLINE bool state_start(tuile_t *t, state_t *state, const record_t *record, uint32_t number, int32_t row, bool tested) {
+TUILE_INLINE bool state_start(tuile_t *t, state_t *state, const record_t *record, uint32_t number, int32_t row, unsigned tested) {
     if (!tested && TUILE_UNLIKELY(frame_record_is_piece(record))) { return piece_start(t, state, record, number, row); }
     return face_start(t, state, record, record, number, row, tested);
 }
 
 /* Draws what of the face lies in the tile. True when the face reaches below it. */
-TUILE_INLINE bool state_fill(tuile_t *t, state_t *state, const record_t *record, bool tested) {
+TUILE_INLINE bool state_fill(tuile_t *t, state_t *state, const record_t *record, unsigned tested) {
     const bool last = t->config.tie == TUILE_TIE_LAST;
     if (TUILE_LIKELY(frame_record_is_triangle(record))) {
         triangle_t *triangle = &state->triangle;
+        if (tested == ROWS_TEXTURED && triangle->value == 0) {
+            const textured_tile_t to = {t->working ? t->working : (uint16_t *)(void *)t->colours[t->next_buffer],
+                                        t->pixel_kind == PIXEL_RGB565_BE};
+            textured_fill(&state->textured, &t->tile, &to);
+            return triangle->row < triangle->head.row_end;
+        }
+        if (tested == ROWS_TEXTURED) { t->numbered = true; }
         const uint16_t *ramp = t->span_kind == SPAN_GOURAUD ? frame_ramp(t, triangle->value) : NULL;
         if (tested) {
             triangle_fill(triangle, &t->tile, t->span_kind, last, ramp);
@@ -74,6 +93,7 @@ TUILE_INLINE bool state_fill(tuile_t *t, state_t *state, const record_t *record,
         return triangle->row < triangle->head.row_end;
     }
     if (!tested && record->d2 != 0) { return piece_fill(t, state, record); }
+    if (tested == ROWS_TEXTURED) { t->numbered = true; }
     const polygon_ring_t ring = frame_record_ring(t, record);
     const span_kind_t kind = t->span_kind == SPAN_IDS ? SPAN_IDS : SPAN_FLAT;
     if (tested) {
@@ -94,7 +114,7 @@ TUILE_INLINE bool face_skip(const tuile_t *t, state_t *state, const record_t *fa
     return state->polygon.row < state->head.row_end;
 }
 
-TUILE_INLINE bool state_skip(const tuile_t *t, state_t *state, int32_t row, bool tested) {
+TUILE_INLINE bool state_skip(const tuile_t *t, state_t *state, int32_t row, unsigned tested) {
     const record_t *record = frame_record(t, state->head.record);
     if (!tested && TUILE_UNLIKELY(frame_record_is_piece(record))) { return piece_skip(t, state, record, row); }
     return face_skip(t, state, record, row);
@@ -183,7 +203,7 @@ static inline void walk_keep(tuile_t *t, walk_t *walk, const state_t *state) {
 
 /* The next state in order, set up in `local` or lying in the old stream, and its record; NULL at the end. A state stays where it is
  * until the next call, since the new stream never overtakes the old one. */
-TUILE_INLINE state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_t row, const record_t **record, bool tested) {
+TUILE_INLINE state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_t row, const record_t **record, unsigned tested) {
     for (;;) {
         state_t *carried = (state_t *)(void *)walk->old;
         if (walk->list != RECORD_NONE && (walk->old == walk->old_end || walk->list - 1u < carried->head.record)) {
@@ -201,7 +221,7 @@ TUILE_INLINE state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_
 }
 
 /* All faces of the row through the only column. */
-TUILE_INLINE void row_draw(tuile_t *t, int32_t top, bool tested) {
+TUILE_INLINE void row_draw(tuile_t *t, int32_t top, unsigned tested) {
     walk_t walk;
     state_t local, *state;
     const record_t *record;
@@ -213,7 +233,7 @@ TUILE_INLINE void row_draw(tuile_t *t, int32_t top, bool tested) {
 }
 
 /* All faces past the row, undrawn. */
-TUILE_INLINE void row_pass_by(tuile_t *t, int32_t top, int32_t bottom, bool tested) {
+TUILE_INLINE void row_pass_by(tuile_t *t, int32_t top, int32_t bottom, unsigned tested) {
     walk_t walk;
     state_t local, *state;
     const record_t *record;
@@ -225,7 +245,7 @@ TUILE_INLINE void row_pass_by(tuile_t *t, int32_t top, int32_t bottom, bool test
 }
 
 /* All faces of the row into the stream. */
-TUILE_INLINE void row_gather(tuile_t *t, int32_t top, bool tested) {
+TUILE_INLINE void row_gather(tuile_t *t, int32_t top, unsigned tested) {
     walk_t walk;
     state_t local, *state;
     const record_t *record;
@@ -237,7 +257,7 @@ TUILE_INLINE void row_gather(tuile_t *t, int32_t top, bool tested) {
 }
 
 /* One of several columns. The faces without a state are set up again for each. */
-TUILE_INLINE void column_draw(tuile_t *t, int32_t top, bool tested) {
+TUILE_INLINE void column_draw(tuile_t *t, int32_t top, unsigned tested) {
     const uint8_t *at = t->stream;
     uint16_t list = t->uncarried;
     state_t local;
@@ -255,7 +275,7 @@ TUILE_INLINE void column_draw(tuile_t *t, int32_t top, bool tested) {
         at += carried->head.size_bytes;
         if (!state_in_columns(t, carried)) { continue; }
         const record_t *record = frame_record(t, carried->head.record);
-        if (frame_record_is_triangle(record)) {
+        if (tested != ROWS_TEXTURED && frame_record_is_triangle(record)) {
             local.triangle = carried->triangle;
         } else {
             memcpy(&local, carried, carried->head.size_bytes);
@@ -265,7 +285,7 @@ TUILE_INLINE void column_draw(tuile_t *t, int32_t top, bool tested) {
 }
 
 /* Behind the last column: states move on to the next row, in place. */
-TUILE_INLINE void row_advance(tuile_t *t, int32_t bottom, bool tested) {
+TUILE_INLINE void row_advance(tuile_t *t, int32_t bottom, unsigned tested) {
     uint8_t *out = t->stream;
     for (uint8_t *at = t->stream; at < t->stream_end;) {
         state_t *state = (state_t *)(void *)at;
@@ -302,7 +322,7 @@ static inline int32_t row_bottom(const tuile_t *t, uint16_t row) {
 }
 
 /* A face that goes away after the call. */
-TUILE_INLINE void rows_draw_now(tuile_t *t, uint32_t number, bool tested) {
+TUILE_INLINE void rows_draw_now(tuile_t *t, uint32_t number, unsigned tested) {
     state_t local;
     const record_t *record = frame_record(t, number);
     if (state_start(t, &local, record, number, t->tile.top, tested) && state_in_columns(t, &local)) {
@@ -311,7 +331,7 @@ TUILE_INLINE void rows_draw_now(tuile_t *t, uint32_t number, bool tested) {
 }
 
 /* All faces of tile row `row` into the tile. */
-TUILE_INLINE void rows_draw_tile(tuile_t *t, uint16_t row, bool tested) {
+TUILE_INLINE void rows_draw_tile(tuile_t *t, uint16_t row, unsigned tested) {
     while (t->row < row) {
         if (t->row_ready) {
             row_advance(t, row_bottom(t, t->row), tested);

@@ -14,8 +14,8 @@
  * Windows that wait lie on a stack, each with the two numbers of the window that it is a part of. Of the parts the smallest is
  * looked at first and the largest last. Then with w windows waiting below one of area A,  w + 1.5 log2 A  never grows: of four
  * parts the smallest has an area of at most A / 4 and three wait below it (3 = 1.5 log2 4), the next A / 3 and two (2 < 1.5 log2
- * 3), then A / 2 and one, then none; of two parts A / 2 and one. Hence at most 1.5 log2 (1920 * 1920) + 1 = 33 windows, wherever they are
- * cut.
+ * 3), then A / 2 and one, then none; of two parts A / 2 and one. Hence at most 1.5 log2 (1920 * 1920) + 1 = 33 windows, wherever
+ * they are cut.
  *
  * Memory: the free room holds sizeof(warnock_face_t) + 2 = 90 bytes for each face whose box meets the tile; the stack is 34 * 14
  * bytes of the processor's. Nothing else, whatever the size of a tile.

@@ -3,7 +3,8 @@
  */
 #include "../tune.h"
 
-#include "rows.h"
+#include "../features.h"
+#include "zbuffer_textured.h"
 
 static size_t zbuffer_tile_bytes(const tuile_config_t *config) {
     return sizeof(uint16_t) * (size_t)config->tile_width * config->tile_height;
@@ -14,10 +15,17 @@ static void zbuffer_clear(tuile_t *t) {
     frame_fill_words(t->tile.depth, 0, (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top) * sizeof(uint16_t));
 }
 
-static void zbuffer_draw_now(tuile_t *t, uint32_t number) { rows_draw_now(t, number, true); }
+static void zbuffer_draw_now(tuile_t *t, uint32_t number) {
+    if (TUILE_HAS(TEXTURES) && t->textured) {
+        zbuffer_textured_now(t, number);
+    } else {
+        rows_draw_now(t, number, ROWS_TESTED);
+    }
+}
 
 static int zbuffer_draw_tile(tuile_t *t, uint16_t row) {
-    rows_draw_tile(t, row, true);
+    if (TUILE_HAS(TEXTURES) && t->textured) { return zbuffer_textured_tile(t, row); }
+    rows_draw_tile(t, row, ROWS_TESTED);
     return FRAME_OK;
 }
 

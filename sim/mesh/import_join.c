@@ -179,7 +179,7 @@ static tuile_material_t surface_of(const collector_t *c, size_t face) {
     if (c->material[face] & IMPORT_BARE) {
         surface.texture = TUILE_NO_TEXTURE;
         surface.uv_bits = 0;
-        surface.flags = (uint8_t)(surface.flags & ~(unsigned)TUILE_MATERIAL_BILINEAR);
+        surface.flags = (uint8_t)(surface.flags & ~(unsigned)(TUILE_MATERIAL_BILINEAR | TUILE_MATERIAL_REPLACED));
     }
     if (c->mesh.colours && (c->material[face] & IMPORT_TINTED)) { surface.flags |= TUILE_MATERIAL_VERTEX_COLOURS; }
     return surface;

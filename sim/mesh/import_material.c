@@ -181,6 +181,12 @@ static int import_texture(collector_t *c, const struct aiMaterial *from, import_
     if (texture < 0) { return -1; }
     to->surface.texture = (uint8_t)texture;
     if (c->options->bilinear) { to->surface.flags |= TUILE_MATERIAL_BILINEAR; }
+    /* In glTF a texture is multiplied by the material's colour. In the older formats, as tools write and read them, it takes its
+     * place. */
+    struct aiString mode;
+    if (aiGetMaterialString(from, "$mat.gltf.alphaMode", 0, 0, &mode) != aiReturn_SUCCESS) {
+        to->surface.flags |= TUILE_MATERIAL_REPLACED;
+    }
     return 0;
 }
 

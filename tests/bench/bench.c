@@ -8,7 +8,8 @@
  * The first frame is drawn twice more, and not counted: with a trace, for the pixels that its faces cover, and in a block of as
  * many bytes as the figures say that it needs, to see that it does.
  *
- * Usage: bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT flat|gouraud MEMORY_BYTES [METHOD [VARIANT [EYE AT FOV]]]
+ * Usage: bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT SHADE MEMORY_BYTES [METHOD [VARIANT [EYE AT FOV]]]
+ * SHADE: flat, gouraud, textured-flat, textured-gouraud (the model's textures, in the same light).
  * METHOD as of tuile render, VARIANT: tuile_warnock_t, a number. Exit code 3: the renderer does not have that method.
  */
 #include "../../raster/tuile.h"
@@ -201,7 +202,7 @@ static int run(bench_t *b) {
 
 int main(int count, char **arguments) {
     if (count < 8 || count == 11 || count == 12 || count > 13) {
-        (void)fprintf(stderr, "bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT flat|gouraud MEMORY_BYTES "
+        (void)fprintf(stderr, "bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT SHADE MEMORY_BYTES "
                               "[METHOD [VARIANT [EYE AT FOV]]]\n");
         return 2;
     }
@@ -219,7 +220,8 @@ int main(int count, char **arguments) {
     config->height = (uint16_t)atoi(arguments[3]);
     config->tile_width = (uint16_t)atoi(arguments[4]);
     config->tile_height = (uint16_t)atoi(arguments[5]);
-    config->shade = strcmp(arguments[6], "gouraud") == 0 ? TUILE_GOURAUD : TUILE_FLAT;
+    config->shade = strstr(arguments[6], "gouraud") != NULL ? TUILE_GOURAUD : TUILE_FLAT;
+    config->effects = strncmp(arguments[6], "textured-", 9) == 0 ? TUILE_SURFACES : 0;
     while (count > 8 && options_methods[config->method] && strcmp(options_methods[config->method], arguments[8]) != 0) {
         config->method++;
     }

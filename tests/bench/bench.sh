@@ -18,7 +18,7 @@ rows=$out/rows.txt
 width=${size%x*} height=${size#*x}
 for model in "$@"; do
     for tile in $tiles; do
-        for shade in flat gouraud; do
+        for shade in ${SHADES:-flat gouraud textured-gouraud}; do
             memory=${MEMORY:-4194304}
             count "$out" "$program" "$model" "$width" "$height" "${tile%x*}" "${tile#*x}" "$shade" "$memory" \
                 "${METHOD:-zbuffer}" "${VARIANT:-0}"
@@ -38,8 +38,8 @@ for model in "$@"; do
                 }
                 function phase(f) {
                     if (f ~ /^(vertex_|perspective|orthographic)/) return "vertex"
-                    if (f ~ /^(triangle_fill[a-z_]*|triangle_paint_[agf][a-z]*|triangle_skip|bend|fill_rows|polygon_start|polygon_fill|polygon_paint|polygon_paint_start|polygon_skip|polygon_span|span_|chains_|polygon_chain|sorted_crossings|side_start|ring_point|polygon_crossing)/) return "span"
-                    if (f ~ /^(zbuffer_clear|frame_fill_words|tile_clear)/ || f ~ /memset/) return "clear"
+                    if (f ~ /^(surface_fill_|stage_|texture_|fetch_|store|shade_box|triangle_fill[a-z_]*|triangle_paint_[agf][a-z]*|triangle_skip|bend|fill_rows|polygon_start|polygon_fill|polygon_paint|polygon_paint_start|polygon_skip|polygon_span|span_|chains_|polygon_chain|sorted_crossings|side_start|ring_point|polygon_crossing)/) return "span"
+                    if (f ~ /^(zbuffer_clear|shade_clear|frame_fill_words|tile_clear)/ || f ~ /memset/) return "clear"
                     if (f ~ /^resolve_tile/) return "resolve"
                     return "setup"
                 }

@@ -1,0 +1,55 @@
+/* Records whose faces are drawn with their texture at once. */
+#include "../tune.h"
+
+#include "frame.h"
+
+#include "../fill/triangle_set_up.h"
+#include "../surface/textured.h"
+
+/* Another source of vertices, or another material of it. */
+static TUILE_NOINLINE void source_open(tuile_t *t, const record_t *record, uint16_t at) {
+    const source_slot_t *source = (const source_slot_t *)(const void *)&t->vertices[at];
+    const tuile_instance_t *instance = &t->scene->instances[source->instance];
+    const tuile_model_t *model = instance->model;
+    const tuile_material_t m = frame_instance_material(instance, record->material);
+    t->textured_number = record->material;
+    t->textured_source = at;
+    t->textured_last.fit = false;
+    if (m.texture >= model->texture_count || model->texcoords == NULL || model->colours != NULL || source->colours != 0 ||
+        source->attributes != 0) {
+        return;
+    }
+    const tuile_texture_t texture = tuile_model_texture(model, m.texture);
+    textured_material_open(&t->textured_last, &m, &texture, t->config.texturing, t->camera.projection == TUILE_PERSPECTIVE);
+    t->textured_texcoords =
+        (const int16_t *)(const void *)model->texcoords + 2 * ((ptrdiff_t)source->first_vertex - at - (ptrdiff_t)SOURCE_SLOTS);
+}
+
+TUILE_INLINE texture_corner_t corner_at(const vertex_t *vertex, const int16_t *texcoords) {
+    return (texture_corner_t){vertex->x, vertex->y, vertex->depth_light >> 8, texcoords[0], texcoords[1]};
+}
+
+bool textured_start(tuile_t *t, textured_t *textured, const record_t *record, int32_t row) {
+    const record_surface_t *extra = (const record_surface_t *)(const void *)record;
+    if (TUILE_UNLIKELY(t->textured_source != extra->source || t->textured_number != record->material)) {
+        source_open(t, record, extra->source);
+    }
+    if (!t->textured_last.fit) { return false; }
+    const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+    triangle_t *triangle = &textured->triangle;
+    if (TUILE_LIKELY(t->config.shade == TUILE_GOURAUD)) {
+        triangle_set_up(triangle, v0, v1, v2, row, true, true);
+    } else {
+        if (extra->green != record->light || extra->blue != record->light) { return false; }
+        triangle_start(triangle, v0, v1, v2, row, false);
+        triangle->shade += (uint64_t)record->light << 24;
+    }
+    if (TUILE_UNLIKELY(!triangle->is_short)) { return false; }
+    const int16_t *texcoords = t->textured_texcoords + 2 * (ptrdiff_t)record->v0;
+    const texture_corner_t a = corner_at(v0, texcoords), b = corner_at(v1, texcoords + 2 * record->d1),
+                           c = corner_at(v2, texcoords + 2 * record->d2);
+    if (!textured_map(&textured->map, &t->textured_last, &a, &b, &c, 8u - t->textured_last.uv_bits)) { return false; }
+    triangle->value = 0;
+    triangle->head.size_bytes = (sizeof(textured_t) + 7u) & ~7u;
+    return true;
+}

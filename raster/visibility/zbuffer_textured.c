@@ -1,0 +1,13 @@
+#include "../tune.h"
+
+#include "zbuffer_textured.h"
+
+int zbuffer_textured_tile(tuile_t *t, uint16_t row) {
+    rows_draw_tile(t, row, ROWS_TEXTURED);
+    return FRAME_OK;
+}
+
+void zbuffer_textured_now(tuile_t *t, uint32_t number) {
+    t->textured_source = UINT16_MAX; /* slots are used again */
+    rows_draw_now(t, number, ROWS_TEXTURED);
+}
