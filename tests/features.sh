@@ -28,6 +28,7 @@ C
     echo "features: $1 can be left out"
 }
 
+without surfaces TUILE_FEATURES=0x1e0 "raster/frame/shade.c $(echo raster/surface/*.c)" ".effects = TUILE_SURFACES"
 without resolve TUILE_FEATURES=0x0bf "$(echo raster/resolve/*.c)" ".format = TUILE_GREY8"
 without samples TUILE_FEATURES=0x0ff "raster/resolve/mean.c" ".aa = TUILE_AA_2X2"
 without formats TUILE_FORMATS=0x001 "" ".format = TUILE_RGB332"

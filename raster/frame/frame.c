@@ -77,9 +77,9 @@ static bool config_complete(tuile_config_t *c, size_t size_bytes) {
         c->corners > 255 || c->row_first > c->height || c->row_end > c->height || (c->row_end != 0 && c->row_end < c->row_first) ||
         c->warnock > 31 || c->aa > TUILE_AA_4X4 || c->effects > 3 || c->edges > TUILE_EDGES_OUTLINE || c->texturing > 15 ||
         c->width << c->aa > TUILE_SAMPLES_MAX || c->height << c->aa > TUILE_SAMPLES_MAX ||
-        (c->edges != TUILE_EDGES_NONE && !(c->effects & TUILE_LAYERS)) ||
-        !TUILE_HAS_FORMAT(c->format) || (!TUILE_HAS(RESOLVE) && TUILE_RESOLVES(c->format, 1u << c->aa, c->dither)) ||
-        (!TUILE_HAS(SAMPLES) && c->aa) ||
+        (c->edges != TUILE_EDGES_NONE && !(c->effects & TUILE_LAYERS)) || !TUILE_HAS_FORMAT(c->format) ||
+        (!TUILE_HAS(RESOLVE) && TUILE_RESOLVES(c->format, 1u << c->aa, c->dither)) || (!TUILE_HAS(SAMPLES) && c->aa) ||
+        (!TUILE_HAS(SURFACES) && TUILE_DEFERS(c->format, c->effects, c->dither)) ||
         (c->format == TUILE_FACE_IDS && (c->aa || c->dither || c->effects || c->overlay))) {
         return false;
     }

@@ -11,6 +11,7 @@
 #ifndef TUILE_FRAME_FRAME_H
 #define TUILE_FRAME_FRAME_H
 
+#include "../features.h"
 #include "../fill/polygon.h"
 #include "../fill/textured.h"
 #include "../fill/triangle.h"
@@ -326,6 +327,9 @@ void frame_record_rows(const tuile_t *t, const record_t *record, int32_t *first,
 bool textured_start(tuile_t *t, textured_t *textured, const record_t *record, int32_t row);
 
 /* ---- shade.c: deferred shading, t->numbers is not NULL ---- */
+
+/* Builds without it have none of its code. */
+TUILE_INLINE bool frame_deferred(const tuile_t *t) { return TUILE_HAS(SURFACES) && t->numbers != NULL; }
 
 /* A tile of background, and no face seen in it yet. */
 void shade_clear(tuile_t *t);

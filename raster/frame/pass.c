@@ -17,7 +17,7 @@ static void pass_set(tuile_t *t, uint32_t first, uint32_t end, uint32_t column, 
     t->pass_column = (uint16_t)column;
     t->narrow = narrow;
     t->immediate = narrow && t->method->draw_now != NULL && !t->keep;
-    t->draw_now = t->numbers != NULL ? shade_now : t->method->draw_now;
+    t->draw_now = frame_deferred(t) ? shade_now : t->method->draw_now;
     t->region.top = (uint16_t)(first * c->tile_height);
     t->region.bottom = (uint16_t)(end * c->tile_height < c->height ? end * c->tile_height : c->height);
     t->region.left = (uint16_t)(narrow ? column * c->tile_width : 0);
@@ -139,7 +139,7 @@ void frame_fill_words(void *bytes, uint32_t word, size_t size_bytes) {
 static void tile_clear(tuile_t *t) {
     const size_t pixels = (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top);
     if (t->method->clear) { t->method->clear(t); }
-    if (t->numbers != NULL) {
+    if (frame_deferred(t)) {
         shade_clear(t);
     } else {
         frame_fill_words(t->tile.colour, t->span_kind == SPAN_IDS ? 0 : t->background * 0x10001u, pixels * frame_sample_bytes(t));
@@ -147,7 +147,7 @@ static void tile_clear(tuile_t *t) {
 }
 
 static void draw_now_traced(tuile_t *t, uint32_t number) {
-    (t->numbers != NULL ? shade_now : t->method->draw_now)(t, number);
+    (frame_deferred(t) ? shade_now : t->method->draw_now)(t, number);
     trace_face(t, number);
 }
 
@@ -181,7 +181,7 @@ int pass_draw(tuile_t *t, uint32_t row, uint32_t column) {
             if (t->config.trace) { trace_tile(t); }
             pass_measure(t, (size_t)(t->stream_end - t->stream));
             t->stats.tiles_narrow += t->narrow;
-            if (result == 0 && t->numbers != NULL) { shade_tile(t); }
+            if (result == 0 && frame_deferred(t)) { shade_tile(t); }
             return result;
         }
         t->shrunk = true;
