@@ -7,6 +7,10 @@ folder=$1
 shift
 compiler=$*
 mkdir -p "$folder"
+roots= # what draws frames; what a board calls besides may want more files
+for symbol in tuile_model_open tuile_init tuile_begin tuile_next tuile_seek tuile_end tuile_wanted tuile_pick; do
+    roots="$roots -Wl,-u,$symbol"
+done
 
 # without NAME DEFINITION FILES FIELDS: builds without the files; a configuration of the fields must be refused.
 without() {
@@ -23,7 +27,7 @@ C
         case " $3 " in *" $source "*) ;; *) sources="$sources $source" ;; esac
     done
     # shellcheck disable=SC2086
-    $compiler -no-pie -D$2 -I. "$folder/main.c" $sources -o "$folder/without"
+    $compiler -no-pie -ffunction-sections -fdata-sections -Wl,--gc-sections $roots -D$2 -I. "$folder/main.c" $sources -o "$folder/without"
     "$folder/without" || { echo "features: without $1 ($2) the wrong configurations are refused"; exit 1; }
     echo "features: $1 can be left out"
 }

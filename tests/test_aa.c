@@ -127,6 +127,7 @@ static void a_pixel_is_the_mean_of_a_picture_that_many_times_as_large(void **sta
             const unsigned kind = k / (TUILE_TREE + 1);
             tuile_config_t config = scene_config(&stage, width, height);
             config.shade = (uint8_t)shade;
+            config.effects = k % 3 == 2 ? TUILE_SURFACES : 0;
             config.format = own_steps[kind].format;
             config.method = (uint8_t)(k % (TUILE_TREE + 1));
             tuile_config_t large = config;
