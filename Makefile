@@ -131,7 +131,7 @@ $(BUNNY_6000): $(BUNNY) $(TUILE)
 # ---- demo ----------------------------------------------------------------------------------------------------------
 demo: $(TUILE) $(SPIDER) $(BUNNY_6000) ## two real models on the simulated panel, 36 frames each, as pictures in build/demo
 	@mkdir -p $(BUILD)/demo
-	$(TUILE) render $(SPIDER) --rotate 90 --frames 36 --background 182030 --out $(BUILD)/demo/spider-%02d.png --sheet $(BUILD)/demo/spider.png
+	$(TUILE) render $(SPIDER) --rotate 90 --frames 36 --shade gouraud --background 182030 --out $(BUILD)/demo/spider-%02d.png --sheet $(BUILD)/demo/spider.png
 	$(TUILE) render $(BUNNY_6000) --frames 36 --shade gouraud --background 302018 --memory 64K --out $(BUILD)/demo/bunny-%02d.png --sheet $(BUILD)/demo/bunny.png
 	@echo "Pictures: $(BUILD)/demo/*.png; contact sheets: $(BUILD)/demo/spider.png and $(BUILD)/demo/bunny.png"
 

@@ -11,6 +11,7 @@
 #include "render_format.h"
 #include "render_mesh.h"
 #include "render_overlay.h"
+#include "render_surface.h"
 #include "render_value.h"
 #include "render_world.h"
 #include "sheet.h"
@@ -64,6 +65,7 @@ static void print_usage(FILE *file) {
     (void)fputs(usage, file);
     (void)fputs(render_mesh_usage, file);
     (void)fputs(render_format_usage, file);
+    (void)fputs(render_surface_usage, file);
     (void)fputs(render_world_usage, file);
     (void)fputs(render_overlay_usage, file);
 }
@@ -77,6 +79,7 @@ typedef struct render {
     double pick_at[2];
     tuile_config_t config;
     render_format_t format;
+    render_surface_t surface;
     render_world_t world;
     render_overlay_t overlay;
     mesh_options_t mesh_options;
@@ -198,6 +201,7 @@ static int parse(render_t *r, int count, char **arguments) {
             return -1;
         } else if (!render_format_option(&r->format, &options, argument) &&
                    !render_mesh_option(&r->mesh_options, &options, argument) &&
+                   !render_surface_option(&r->surface, &options, argument) &&
                    !render_world_option(&r->world, &options, argument) &&
                    !render_overlay_option(&r->overlay, &options, argument)) {
             options_unknown(&options);
@@ -284,6 +288,7 @@ static int set_up(render_t *r) {
     r->config.height = r->display.height;
     if (render_format_apply(&r->format, r->rotate, &r->config) != 0) { return EXIT_FAILURE; }
     if (render_overlay_apply(&r->overlay, &r->config) != 0) { return EXIT_FAILURE; }
+    render_surface_apply(&r->surface, &r->sizes, &r->config);
     if (open_renderer(&r->renderer, &r->block, &r->config, &r->sizes, &r->memory_bytes) != 0) { return EXIT_FAILURE; }
     if (view_make(&r->view, &r->view_options, &r->model, r->config.width, r->config.height, (unsigned)r->frames, &r->error) != 0) {
         return command_fail("%s", r->error.text);
@@ -320,6 +325,7 @@ static int write_ids(render_t *r, unsigned frame) {
     config.aa = TUILE_AA_NONE;
     config.dither = false;
     config.overlay = NULL;
+    config.effects = 0;
     uint32_t *ids = calloc(pixels, sizeof *ids);
     if (!ids) { return command_fail("out of memory"); }
     int code = open_renderer(&renderer, &block, &config, &r->sizes, &memory_bytes);

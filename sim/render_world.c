@@ -231,6 +231,8 @@ void render_world_sizes(const render_world_t *world, tuile_model_t *sizes) {
         sizes->vertex_count += model->vertex_count;
         sizes->face_count += model->face_count;
         sizes->material_count += model->material_count;
+        sizes->texture_count = (uint16_t)(sizes->texture_count | model->texture_count);
+        if (model->colours) { sizes->colours = model->colours; }
         grow(&sizes->cluster_vertices_max, model->cluster_vertices_max);
         grow(&sizes->corners_max, model->corners_max);
         grow(&sizes->tree_depth, model->tree_depth);

@@ -4,6 +4,7 @@
  * demo.txt those of the demo's frames 0, 9, 18 and 27. Where a picture differs, build/golden gets what was drawn and where it
  * differs. UPDATE_GOLDEN=1 in the environment writes all of them anew; then look at them. */
 #include "support/check.h"
+#include "support/cli.h"
 #include "support/command.h"
 #include "support/golden.h"
 #include "support/models.h"
@@ -177,10 +178,32 @@ static void frames_of_the_demo_have_the_hashes_they_had(void **state) {
     golden_close(&golden);
 }
 
+/* The spider as it was drawn before there were textures. */
+static void plain_colours_are_what_they_were(void **state) {
+    static const char *const hashes[] = {"0c312047c5d03c91", "880ca4c657e42745", "73493a353e48f0c7", "b307b04ada684849"};
+    static const char *const without[] = {"--plain", "--no-textures"};
+    (void)state;
+    for (unsigned k = 0; k < CHECK_COUNT(without); k++) {
+        char command[2048];
+        command_result_t result;
+        (void)snprintf(command, sizeof command, "%s render %s --rotate 90 --frames 4 --spin 90 --background 182030 --hash %s",
+                       cli_program(), getenv("SPIDER"), without[k]);
+        command_shell(&result, command);
+        if (result.code != 0) { fail_msg("%s\n%s", command, result.err); }
+        for (unsigned frame = 0; frame < 4; frame++) {
+            char line[64];
+            (void)snprintf(line, sizeof line, "frame %u %s\n", frame, hashes[frame]);
+            if (!strstr(result.out, line)) { fail_msg("%s: no %s in\n%s", command, line, result.out); }
+        }
+        command_free(&result);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_models_look_as_they_did),
         cmocka_unit_test(frames_of_the_demo_have_the_hashes_they_had),
+        cmocka_unit_test(plain_colours_are_what_they_were),
     };
     return cmocka_run_group_tests_name("golden", tests, NULL, NULL);
 }
