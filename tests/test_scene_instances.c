@@ -17,6 +17,7 @@ static void random_pose(random_source_t *random, tuile_pose_t *pose, double spre
 
 static void no_model_with_a_vertex_in_the_window_is_dropped(void **state) {
     static vertex_t vertices[4096];
+    static const transform_region_t regions[2] = {{20, 16, 70, 48}, {60, 50, 90, 80}};
     random_source_t random = random_seed(83);
     stage_t stage;
     mesh_t mesh;
@@ -28,7 +29,7 @@ static void no_model_with_a_vertex_in_the_window_is_dropped(void **state) {
     assert_true(model->vertex_count < CHECK_COUNT(vertices));
     for (int round = 0; round < CHECK_ROUNDS(8000); round++) {
         transform_t transform;
-        const transform_region_t region = {20, 16, 70, 48};
+        const transform_region_t region = regions[round / 2 % 2];
         tuile_scene_t scene = stage.view.scene;
         scene.camera.projection = round % 2 ? TUILE_ORTHOGRAPHIC : TUILE_PERSPECTIVE;
         if (round % 2) { scene.camera.focal_x = scene.camera.focal_y = 65536 / 150; }
@@ -43,8 +44,8 @@ static void no_model_with_a_vertex_in_the_window_is_dropped(void **state) {
         unsigned inside = 0;
         (void)vertex_stage(&transform, (const int16_t *)(const void *)model->positions, NULL, model->vertex_count, vertices);
         for (uint32_t v = 0; v < model->vertex_count; v++) {
-            inside += vertices[v].x != VERTEX_OUTSIDE && vertices[v].x >= 20 * 16 && vertices[v].x <= 70 * 16 &&
-                      vertices[v].y >= 16 * 16 && vertices[v].y <= 48 * 16;
+            inside += vertices[v].x != VERTEX_OUTSIDE && vertices[v].x >= region.left * 16 && vertices[v].x <= region.right * 16 &&
+                      vertices[v].y >= region.top * 16 && vertices[v].y <= region.bottom * 16;
         }
         const bool outside = cull_model_outside(&transform, model);
         const bool early = cull_instance_outside(&scene.camera, &stage.view.instance, &region);

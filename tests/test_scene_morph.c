@@ -213,6 +213,44 @@ static void without_morph_the_first_key_frame_is_seen_and_nothing_is_paid(void *
     stage_close(&stage);
 }
 
+/* The upper half of a square, four steps high, comes down by two. */
+static void lower(const tuile_model_t *model, const int16_t from[3], int16_t to[3]) {
+    to[0] = from[0], to[2] = from[2];
+    to[1] = (int16_t)(from[1] == model->high[1] ? from[1] - 2 : from[1]);
+}
+
+/* A step is 16 pixels here. */
+static void motion_is_as_smooth_as_pixels_are(void **state) {
+    mesh_t mesh;
+    model_compiled_t whole, a;
+    const mesh_options_t coarse = {.step = 1};
+    (void)state;
+    model_start(&mesh);
+    const uint32_t corners[4] = {model_position(&mesh, -2, -2, 0), model_position(&mesh, 2, -2, 0), model_position(&mesh, 2, 2, 0),
+                                 model_position(&mesh, -2, 2, 0)};
+    model_face(&mesh, corners, 4, model_material(&mesh, 200, 200, 200));
+    model_compile_with(&whole, &mesh, &coarse);
+    mesh_free(&mesh);
+    morph_add(&a, &whole, lower, NULL);
+    tuile_instance_t instance = stage_placed(&a.model, 0);
+    const tuile_scene_t scene = {.instances = &instance, .instance_count = 1, .camera = stage_plain_camera(80, 80)};
+    for (unsigned m = 0; m <= TUILE_MORPH_ONE; m += 64) {
+        instance.morph = (uint16_t)m;
+        uint32_t *ids = frame_draw_ids(&scene, 80, 80);
+        unsigned top = 0;
+        while (ids[top * 80 + 40] == 0) {
+            top++;
+        }
+        /* The edge is 8 to 40 pixels from the top, and covers the pixels whose centres are below it; it is snapped to 1/16, and
+         * up to 1/16 too low. */
+        const double edge = 8 + 32.0 * m / TUILE_MORPH_ONE;
+        assert_in_range(top, (unsigned)ceil(edge - 0.04 - 0.5), (unsigned)ceil(edge + 0.1 - 0.5));
+        free(ids);
+    }
+    model_free(&whole);
+    model_free(&a);
+}
+
 static void too_little_memory_is_told_at_the_beginning(void **state) {
     stage_t stage;
     model_compiled_t a;
@@ -307,6 +345,7 @@ int main(void) {
         cmocka_unit_test(at_its_end_the_second_key_frame_is_seen),
         cmocka_unit_test(half_way_the_model_half_way_is_seen),
         cmocka_unit_test(without_morph_the_first_key_frame_is_seen_and_nothing_is_paid),
+        cmocka_unit_test(motion_is_as_smooth_as_pixels_are),
         cmocka_unit_test(too_little_memory_is_told_at_the_beginning),
         cmocka_unit_test(morph_out_of_range_or_of_a_model_without_it_is_an_error),
         cmocka_unit_test(a_point_is_picked_on_the_face_where_it_is),

@@ -59,6 +59,7 @@ static void assert_near(const tuile_pose_t *world, const exact_t *e) {
         for (int j = 0; j < 3; j++) {
             const long double off = world->rotation[i][j] * 0x1p-30L - e->rotation[i][j];
             squares += off * off;
+            assert_true(n > 2 || fabsl(off) <= 0.5001L * 0x1p-30L);
         }
         const long double off = fabsl(world->translation[i] * 0x1p-16L - e->translation[i]);
         assert_true(off <= n * 0x1p-17L + (n - 1) * (n - 1) * 0x1p-30L * e->way);
