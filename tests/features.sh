@@ -22,13 +22,36 @@ int main(void) {
     return tuile_init(&renderer, &plain, 0, 0, 0) != TUILE_ERROR_MEMORY || tuile_init(&renderer, &wanting, 0, 0, 0) != TUILE_ERROR_ARGUMENT;
 }
 C
+    build "$1" "$2" "$3"
+}
+
+# The same of an instance with the fields in a scene.
+without_in_scene() {
+    cat >"$folder/main.c" <<C
+#include "raster/tuile.h"
+static uint64_t block[4096];
+int main(void) {
+    static const tuile_config_t config = {.width = 64, .height = 64, .tile_height = 4};
+    static const tuile_model_t model = {.cluster_vertices_max = 3, .corners_max = 3};
+    static const tuile_instance_t plain = {.model = &model}, wanting = {.model = &model, $4};
+    tuile_scene_t scene = {.instances = &plain, .instance_count = 1};
+    tuile_t *renderer;
+    if (tuile_init(&renderer, &config, block, sizeof block, 0) || tuile_begin(renderer, &scene) || tuile_end(renderer, 0)) { return 1; }
+    scene.instances = &wanting;
+    return tuile_begin(renderer, &scene) != TUILE_ERROR_EFFECTS;
+}
+C
+    build "$1" "$2" "$3"
+}
+
+build() {
     sources=
     for source in raster/*.c raster/*/*.c; do
         case " $3 " in *" $source "*) ;; *) sources="$sources $source" ;; esac
     done
     # shellcheck disable=SC2086
     $compiler -no-pie -ffunction-sections -fdata-sections -Wl,--gc-sections $roots -D$2 -I. "$folder/main.c" $sources -o "$folder/without"
-    "$folder/without" || { echo "features: without $1 ($2) the wrong configurations are refused"; exit 1; }
+    "$folder/without" || { echo "features: without $1 ($2) the wrong ones are refused"; exit 1; }
     echo "features: $1 can be left out"
 }
 
@@ -36,3 +59,4 @@ without surfaces TUILE_FEATURES=0x1e0 "raster/frame/shade.c $(echo raster/surfac
 without resolve TUILE_FEATURES=0x0bf "$(echo raster/resolve/*.c)" ".format = TUILE_GREY8"
 without samples TUILE_FEATURES=0x0ff "raster/resolve/mean.c" ".aa = TUILE_AA_2X2"
 without formats TUILE_FORMATS=0x001 "" ".format = TUILE_RGB332"
+without_in_scene "key frames" TUILE_FEATURES=0x17f "$(echo raster/frame/morph.c raster/geometry/morph.c raster/scene/*.c)" ".morph = 1"

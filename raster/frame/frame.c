@@ -184,8 +184,8 @@ static int check_scene(const tuile_t *t, const tuile_scene_t *scene, uint32_t *m
         if (model->cluster_vertices_max > t->config.cluster_vertices || model->corners_max > t->config.corners) {
             return TUILE_ERROR_LIMITS;
         }
-        if (scene->instances[i].morph > (model->morph_positions ? TUILE_MORPH_ONE : 0)) { return TUILE_ERROR_ARGUMENT; }
         if (!TUILE_HAS(MORPH) && scene->instances[i].morph != 0) { return TUILE_ERROR_EFFECTS; }
+        if (scene->instances[i].morph > (model->morph_positions ? TUILE_MORPH_ONE : 0)) { return TUILE_ERROR_ARGUMENT; }
         if (frame_counts_materials(t) && frame_first_use(scene, i)) { *materials += model->material_count; }
         *faces += model->face_count;
     }
