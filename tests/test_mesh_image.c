@@ -92,8 +92,8 @@ static void png_of_grey_spreads_its_bits(void **state) {
 
 static void png_of_16_bits_is_rounded_to_8(void **state) {
     (void)state;
-    /* 0x8080 / 257 = 128 exactly; 0x0100 / 257 = 0.996; 0x007f / 257 = 0.494; 0xffff / 257 = 255. */
-    static const uint8_t rows[] = {0x80, 0x80, 0x01, 0x00, 0x00, 0x7f, 0xff, 0xff, 0x00, 0x00, 0x12, 0x12};
+    /* 0x8080 / 257 = 128 exactly; 0x00ff / 257 = 0.992; 0x007f / 257 = 0.494; 0xffff / 257 = 255. */
+    static const uint8_t rows[] = {0x80, 0x80, 0x00, 0xff, 0x00, 0x7f, 0xff, 0xff, 0x00, 0x00, 0x12, 0x12};
     static const uint8_t expected[][4] = {{128, 1, 0, 255}, {255, 0, 0x12, 255}};
     const images_png_t png = {
         .width = 2, .height = 1, .colour_type = PNG_COLOR_TYPE_RGB, .depth = 16, .rows = rows, .row_bytes = 12};

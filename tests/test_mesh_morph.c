@@ -202,6 +202,25 @@ static void spheres_hold_all_that_is_between(void **state) {
     free(b.bytes);
 }
 
+/* Corners go from place to place on a circle; on the way they are cut to 1/256 step, some of them outwards. */
+static void spheres_have_room_for_rounding(void **state) {
+    (void)state;
+    put("v -3 -4 0\nv 3 4 0\nv -3 4 0\nf 1 2 3\n", "v -4 -3 0\nv 4 3 0\nv -4 3 0\nf 1 2 3\n");
+    built_t b;
+    sim_error_t error = {""};
+    const mesh_options_t options = {.morph_path = second_path, .step = 1};
+    if (mesh_load(first_path, 0, &options, &b.bytes, &b.size, &b.report, &error) != 0) { fail_msg("%s", error.text); }
+    assert_int_equal(tuile_model_open(&b.model, b.bytes, b.size), 0);
+    assert_int_equal(s16(b.model.positions), -3);
+    assert_int_equal(s16(b.model.morph_positions), -4);
+    const uint8_t *cluster = b.model.clusters;
+    const int centre[3] = {256 * s16(cluster), 256 * s16(cluster + 2), 256 * s16(cluster + 4)};
+    const int point[3] = {-3 * 256 - 1, -4 * 256, 0}; /* at 1 / 32768 of the way: 3.0039^2 + 4^2 > 5^2 */
+    assert_false(holds((int[3]){0, 0, 0}, 5 * 256, point));
+    assert_true(holds(centre, 256 * (int)decoder_u16(cluster + 6), point));
+    free(b.bytes);
+}
+
 /* What turns on the way may be seen from anywhere; what only moves keeps its cone. */
 static void cones_are_kept_where_all_goes_one_way(void **state) {
     (void)state;
@@ -326,6 +345,7 @@ int main(void) {
         cmocka_unit_test(polygons_stay_if_they_move_as_one),
         cmocka_unit_test(a_face_without_an_area_in_one_key_frame_is_kept),
         cmocka_unit_test(spheres_hold_all_that_is_between),
+        cmocka_unit_test(spheres_have_room_for_rounding),
         cmocka_unit_test(cones_are_kept_where_all_goes_one_way),
         cmocka_unit_test(other_faces_are_refused_by_what_differs),
         cmocka_unit_test(corners_at_other_vertices_are_refused),
