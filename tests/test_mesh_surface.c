@@ -477,25 +477,26 @@ static void what_is_done_otherwise_is_warned_of(void **state) {
 
 /* ---- vertex colours -------------------------------------------------------------------------------------------------- */
 
-static const char *put_ply(const char *last) {
+/* others: red, green, blue, alpha of two corners; last: of the third. */
+static const char *put_ply(const char *others, const char *last) {
     char text[1024];
     (void)snprintf(text, sizeof text,
                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                    "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\nelement face 1\n"
-                   "property list uchar int vertex_indices\nend_header\n0 0 0 30 0 0 255\n1 0 0 30 0 0 255\n0 1 0 %s\n3 0 1 2\n",
-                   last);
+                   "property list uchar int vertex_indices\nend_header\n0 0 0 %s\n1 0 0 %s\n0 1 0 %s\n3 0 1 2\n",
+                   others, others, last);
     return folder_put_text("c.ply", text);
 }
 
 static void colours_that_differ_within_a_face_are_kept_at_its_vertices(void **state) {
     (void)state;
-    built_t b = load(put_ply("90 60 255 128"), NULL);
+    built_t b = load(put_ply("30 0 0 255", "90 60 255 128"), NULL);
     static const uint8_t colours[12] = {30, 0, 0, 255, 30, 0, 0, 255, 90, 60, 255, 128}, mean[3] = {50, 20, 85};
     assert_memory_equal(at(&b, 128), colours, 12);
     assert_memory_equal(at(&b, 88), mean, 3); /* for those who draw without */
     assert_int_equal(at(&b, 88)[11], TUILE_MATERIAL_VERTEX_COLOURS);
     free(b.bytes);
-    b = load(put_ply("90 60 255 128"), &(mesh_options_t){.vertex_colours = MESH_COLOURS_FACES});
+    b = load(put_ply("30 0 0 255", "90 60 255 128"), &(mesh_options_t){.vertex_colours = MESH_COLOURS_FACES});
     assert_int_equal(decoder_u32(b.bytes + 128), 0);
     assert_memory_equal(at(&b, 88), mean, 3);
     assert_int_equal(at(&b, 88)[11], 0);
@@ -504,14 +505,14 @@ static void colours_that_differ_within_a_face_are_kept_at_its_vertices(void **st
 
 static void one_colour_a_face_is_its_material(void **state) {
     (void)state;
-    built_t b = load(put_ply("30 0 0 255"), NULL);
+    built_t b = load(put_ply("30 0 0 255", "30 0 0 255"), NULL);
     assert_int_equal(decoder_u32(b.bytes + 128), 0);
     assert_int_equal(at(&b, 88)[0], 30);
     free(b.bytes);
-    b = load(put_ply("30 0 0 255"), &(mesh_options_t){.vertex_colours = MESH_COLOURS_VERTICES});
+    b = load(put_ply("30 0 0 255", "30 0 0 255"), &(mesh_options_t){.vertex_colours = MESH_COLOURS_VERTICES});
     assert_int_not_equal(decoder_u32(b.bytes + 128), 0);
     free(b.bytes);
-    b = load(put_ply("30 0 0 254"), NULL); /* alpha a face has not */
+    b = load(put_ply("30 0 0 254", "30 0 0 254"), NULL); /* alpha a face has not */
     assert_int_not_equal(decoder_u32(b.bytes + 128), 0);
     free(b.bytes);
 }
