@@ -62,7 +62,7 @@ static const char *put_triangle(const char *mtl, const char *texcoords) {
 static void a_textured_triangle_stands_where_the_layout_says(void **state) {
     (void)state;
     built_t b = load(put_triangle(MTL, "vt 0 0\nvt 1 0\nvt 0.25 1\n"), NULL);
-    static const uint8_t material[16] = {255, 51, 0, 255, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 0, 0};
+    static const uint8_t material[16] = {255, 51, 0, 255, 0, 0, 0, 0, 0, 0, 0, TUILE_MATERIAL_REPLACED, 8, 0, 0, 0};
     static const uint8_t palette[8] = {0x00, 0xf8, 0xe0, 0x07, 0x1f, 0x00, 0xff, 0xff};
     static const uint8_t rows[4] = {0x10, 0x32, 0x10, 0x32};
     assert_int_equal(decoder_u16(b.bytes + 12), 3);
@@ -109,7 +109,7 @@ static void materials_and_textures_are_told_by_the_model(void **state) {
     assert_int_equal(material.shininess, 5); /* 2^4.9 */
     assert_int_equal(material.texture, 0);
     assert_int_equal(material.blend, TUILE_BLEND_OVER);
-    assert_int_equal(material.flags, TUILE_MATERIAL_BILINEAR);
+    assert_int_equal(material.flags, TUILE_MATERIAL_BILINEAR | TUILE_MATERIAL_REPLACED);
     assert_int_equal(material.uv_bits, 8);
     const tuile_texture_t texture = tuile_model_texture(&model, 0);
     assert_int_equal(texture.width, 4);
@@ -185,9 +185,9 @@ static void what_lies_outside_or_is_unknown_does_not_open(void **state) {
         {material + 9, 255, 1, true},                 /* none */
         {material + 10, 2, 1, true},                  /* blend */
         {material + 10, 3, 1, false},                 /*  */
-        {material + 11, 7, 1, true},                  /* flags */
+        {material + 11, 23, 1, true},                 /* flags */
         {material + 11, 8, 1, false},                 /* vertex colours, which it has not */
-        {material + 11, 16, 1, false},                /*  */
+        {material + 11, 32, 1, false},                /*  */
         {material + 12, 9, 1, false},                 /* uv_bits */
         {material + 13, 1, 1, false},                 /* zeros */
         {material + 15, 1, 1, false},                 /*  */
@@ -453,8 +453,8 @@ static void embedded_images_sampler_and_sides_of_gltf_are_read(void **state) {
     const uint8_t *texture = at(&b, 132);
     assert_int_equal(decoder_u16(b.bytes + 136), 1);
     assert_int_equal(texture[14], TUILE_TEXTURE_CLAMP_S);
-    assert_int_equal(b.bytes[decoder_u32(texture)], 2); /* (77 + 300 + 87) / 256 */
-    assert_int_equal(at(&b, 88)[11], TUILE_MATERIAL_TWO_SIDED);
+    assert_int_equal(b.bytes[decoder_u32(texture)], 2);         /* (77 + 300 + 87) / 256 */
+    assert_int_equal(at(&b, 88)[11], TUILE_MATERIAL_TWO_SIDED); /* the texture is multiplied by the colour */
     assert_int_equal(at(&b, 88)[3], 255);
     assert_string_equal(b.report.warnings, "");
     free(b.bytes);
