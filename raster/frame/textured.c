@@ -1,5 +1,8 @@
 /* Records whose faces are drawn with their texture at once. */
 #include "../tune.h"
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("no-gcse", "ira-region=one") /* 1.5 % fewer: more stays in registers */
+#endif
 
 #include "frame.h"
 
