@@ -2,8 +2,8 @@
  * compiled model, camera, window and textures go through both. Where the pictures differ, exact arithmetic tells why: the pixel
  * lies on the border of one of the faces that were drawn, or these are as near as one another, or its texel address lies on the
  * border of a texel. */
-#include "mesa/exact.h"
 #include "mesa/gl.h"
+#include "reference/exact_face.h"
 #include "support/check.h"
 #include "support/frame.h"
 #include "support/models.h"
@@ -37,6 +37,7 @@ static void triangles_make(compared_t *c) {
     c->triangles = calloc(c->model.face_count, sizeof *c->triangles);
     assert_non_null(c->triangles);
     for (uint32_t f = 0; f < c->model.face_count; f++) {
+        assert_true(c->faces[f].in_front);
         for (int i = 0; i < 3; i++) {
             for (int k = 0; k < 3; k++) {
                 c->triangles[f].position[i][k] = c->faces[f].corner[i].position[k];

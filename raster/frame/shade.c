@@ -62,6 +62,16 @@ static void largest_triangle(const polygon_ring_t *ring, const vertex_t *corners
     }
 }
 
+static void ring_depths(const polygon_ring_t *ring, uint32_t *least, uint32_t *most) {
+    *least = UINT32_MAX;
+    *most = 0;
+    for (uint32_t i = 0; i < ring->count; i++) {
+        const uint32_t depth = polygon_ring_vertex(ring, i)->depth_light >> 8;
+        *least = depth < *least ? depth : *least;
+        *most = depth > *most ? depth : *most;
+    }
+}
+
 static void face_open(const tuile_t *t, const record_t *record, surface_face_t *face) {
     const record_t whole = frame_record_face(t, record);
     const record_surface_t *extra = (const record_surface_t *)(const void *)record;
@@ -69,6 +79,7 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
     const tuile_instance_t *instance = &t->scene->instances[source->instance];
     const vertex_t *corners[3];
     const bool triangle = frame_record_is_triangle(&whole);
+    face->least = face->most = 0;
     if (TUILE_LIKELY(triangle)) {
         corners[0] = &t->vertices[whole.v0];
         corners[1] = corners[0] + whole.d1;
@@ -76,6 +87,7 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
     } else {
         const polygon_ring_t ring = frame_record_ring(t, &whole);
         largest_triangle(&ring, corners);
+        ring_depths(&ring, &face->least, &face->most);
     }
     for (unsigned i = 0; i < 3; i++) {
         corner_open(t, extra, instance->model, (uint32_t)(corners[i] - t->vertices), &face->corner[i]);

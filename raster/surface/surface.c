@@ -140,7 +140,9 @@ static void texture_open(surface_t *surface, const surface_face_t *face, const t
         (texture_wish_t){.bilinear = face->material.flags & TUILE_MATERIAL_BILINEAR && !(face->texturing & TUILE_TEXTURE_NEAREST),
                          .affine = face->texturing & TUILE_TEXTURE_AFFINE,
                          .mips = !(face->texturing & TUILE_TEXTURE_NO_MIPS),
-                         .perspective = face->perspective});
+                         .perspective = face->perspective,
+                         .least = face->least,
+                         .most = face->most});
 }
 
 /* The light of a face that is lit alike all over, or -1. */

@@ -30,6 +30,7 @@ typedef struct surface_face {
     surface_corner_t corner[3];
     tuile_material_t material;
     tuile_texture_t texture; /* where material.texture is not TUILE_NO_TEXTURE */
+    uint32_t least, most;    /* a polygon: depths of all its corners, 1/256 step; a triangle: 0 */
     bool triangle;           /* not a part of a polygon: the first corner is a topmost one, all are counter-clockwise */
     bool flat;               /* in one light: */
     uint8_t flat_light[3];   /* red, green, blue */

@@ -66,6 +66,7 @@ typedef struct texture_corner {
 
 typedef struct texture_wish {
     bool bilinear, affine, mips, perspective;
+    uint32_t least, most; /* of a polygon, which reaches beyond the corners: its depths; most = 0: a triangle */
 } texture_wish_t;
 
 /* Sets all of plane up. Corners with an area other than 0. */

@@ -33,7 +33,7 @@ static texture_affine64_t gradient64(const texture_frame_t *f, const texture_cor
 TUILE_INLINE int32_t cut_off(int32_t x, int bits) { return bits > 0 ? (x + (1 << (bits - 1))) >> bits : x * (1 << -bits); }
 
 static TUILE_NOINLINE void perspective_make(texture_plane_t *plane, const texture_frame_t *f, const texture_corner_t *corner[3],
-                                            uint32_t most) {
+                                            uint32_t least, uint32_t most) {
     const texture_span3_t s = texture_span3(corner[0]->s, corner[1]->s, corner[2]->s),
                           t = texture_span3(corner[0]->t, corner[1]->t, corner[2]->t);
     const uint32_t across = (uint32_t)(s.most - s.least), down = (uint32_t)(t.most - t.least),
@@ -56,8 +56,8 @@ static TUILE_NOINLINE void perspective_make(texture_plane_t *plane, const textur
     plane->t0 = corner[0]->t * 256;
     /* texels Q16.16 = u / (q / 2^18) * 2^cut * 2^8 */
     plane->shift = (int8_t)(8 + (int)Q_FRACTION - (int)U_FRACTION + cut);
-    const int64_t least = q[0] < q[1] ? (q[0] < q[2] ? q[0] : q[2]) : (q[1] < q[2] ? q[1] : q[2]);
-    plane->q_least = (least > 1 ? least : 1) << (Q_FRACTION - 1);
+    const int64_t q_least = (int64_t)(((uint64_t)least << n) >> (32 - Q_BITS));
+    plane->q_least = (q_least > 1 ? q_least : 1) << (Q_FRACTION - 1);
     for (unsigned i = 0; plane->mips && i < 3; i++) {
         plane->level_q += texture_log2((uint64_t)(q[i] > 1 ? q[i] : 1) << Q_FRACTION);
     }
@@ -82,12 +82,14 @@ void texture_plane_make(texture_plane_t *plane, const tuile_texture_t *texture, 
     plane->level_q = plane->mips ? texture_level_plane(corner, f.area) : 0;
     plane->level_number = (uint8_t)(plane->mips ? texture_level_held(plane->level_q, texture->levels) : 0);
     plane->level = texture_level(texture, plane->level_number);
-    if (!wish.perspective || wish.affine || texture_affine_will_do(corner)) {
+    const bool is_triangle = wish.most == 0; /* else three corners do not tell how far apart depths and coordinates are */
+    if (!wish.perspective || wish.affine || (is_triangle ? texture_affine_will_do(corner) : wish.least == wish.most)) {
         texture_affine_make(plane, &f, turned[0], turned[1], turned[2]);
         return;
     }
     const uint32_t a = corner[0].depth, b = corner[1].depth, c = corner[2].depth;
-    perspective_make(plane, &f, turned, a > b ? (a > c ? a : c) : (b > c ? b : c));
+    perspective_make(plane, &f, turned, is_triangle ? (a < b ? (a < c ? a : c) : (b < c ? b : c)) : wish.least,
+                     is_triangle ? (a > b ? (a > c ? a : c) : (b > c ? b : c)) : wish.most);
 }
 
 /* ---- coordinates ---- */

@@ -1,4 +1,4 @@
-#include "exact.h"
+#include "exact_face.h"
 
 #include "../support/check.h"
 #include "../support/set_up.h"
@@ -20,8 +20,9 @@ static void corner_open(const set_up_t *s, uint32_t vertex, const tuile_material
     }
     set_up_view(s, corner->position, view);
     corner->w = -view[2];
-    assert_true(corner->w > 0);
     set_up_window(s, view, &corner->x, &corner->y, &corner->depth);
+    corner->over[0] = s->scene.camera.centre_x / 65536.0L * corner->w + s->scene.camera.focal_x / 65536.0L * view[0];
+    corner->over[1] = s->scene.camera.centre_y / 65536.0L * corner->w - s->scene.camera.focal_y / 65536.0L * view[1];
     corner->snapped_x = floorl(corner->x * 16 + 0.5L) / 16;
     corner->snapped_y = floorl(corner->y * 16 + 0.5L) / 16;
     if (model->texcoords) {
@@ -47,8 +48,10 @@ exact_face_t *exact_faces(const tuile_scene_t *scene) {
             if (polygons) { assert_int_equal(at[0], 3); }
             face->material = polygons ? at[2] : at[3];
             const tuile_material_t material = tuile_model_material(model, face->material);
+            face->in_front = true;
             for (unsigned i = 0; i < 3; i++) {
                 corner_open(&s, first + corner[i], &material, &face->corner[i]);
+                face->in_front &= face->corner[i].w > 0;
             }
             at += polygons ? MODEL_POLYGON_BYTES(3) : 4;
         }
@@ -88,6 +91,30 @@ exact_point_t exact_at(const exact_face_t *face, uint32_t x, uint32_t y, bool sn
     point.s /= q;
     point.t /= q;
     return point;
+}
+
+/* Homogeneous: the point (x w, y w, w) is the sum of b_i (x_i w_i, y_i w_i, w_i), and b_i over their sum are its weights in space.
+ */
+bool exact_plane_at(const exact_face_t *face, long double x, long double y, exact_point_t *point) {
+    long double b[3], sum = 0, w = 0;
+    *point = (exact_point_t){.inside = true};
+    for (int i = 0; i < 3; i++) {
+        const exact_corner_t *a = &face->corner[(i + 1) % 3], *c = &face->corner[(i + 2) % 3];
+        const long double ax = a->over[0] - x * a->w, ay = a->over[1] - y * a->w, cx = c->over[0] - x * c->w,
+                          cy = c->over[1] - y * c->w;
+        b[i] = ax * cy - cx * ay;
+        sum += b[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        const exact_corner_t *c = &face->corner[i];
+        const long double weight = b[i] / sum;
+        point->inside &= weight >= 0;
+        w += weight * c->w;
+        point->s += weight * c->s;
+        point->t += weight * c->t;
+    }
+    point->depth = face->corner[0].depth * face->corner[0].w / w;
+    return w > 0;
 }
 
 bool exact_front(const exact_face_t *face) {
