@@ -152,7 +152,7 @@ static void texels_of_whole_faces_are_within_half_a_texel(void **state) {
     random_source_t random = random_seed(61);
     worst_t worst = {0};
     (void)state;
-    for (unsigned round = 0; round < CHECK_ROUNDS(800); round++) {
+    for (unsigned round = 0; round < CHECK_ROUNDS(500); round++) {
         double at[3][3], st[3][2];
         const uint8_t bits = (uint8_t)random_between(&random, 0, 8);
         const double spread = round % 2 ? 1 : 0.1, most = 32767.0 / (1 << bits),
@@ -212,7 +212,7 @@ static void texels_of_cut_faces_are_where_the_uncut_face_has_them(void **state) 
     random_source_t random = random_seed(62);
     worst_t worst = {0};
     (void)state;
-    for (unsigned round = 0; round < CHECK_ROUNDS(800); round++) {
+    for (unsigned round = 0; round < CHECK_ROUNDS(500); round++) {
         double at[3][3], st[3][2];
         const double range = 16 << random_between(&random, 0, 5);
         for (int i = 0; i < 3; i++) {
