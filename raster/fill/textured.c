@@ -17,7 +17,7 @@ TUILE_INLINE uint32_t texel_at(const void *texels, const uint16_t *palette, uint
 
 TUILE_INLINE uint16_t ordered(uint32_t colour, bool swap) {
     const uint16_t value = (uint16_t)colour;
-    return swap ? (uint16_t)(value >> 8 | value << 8) : value;
+    return (uint16_t)(swap ? value >> 8 | value << 8 : value);
 }
 
 /* One row: `depth` is that of its first pixel; samples lie `samples` places of 2 bytes from there. paletted and swap are constants
