@@ -365,7 +365,8 @@ static void images_that_are_missing_or_broken_are_told_with_their_material(void 
           "a.obj: material \"striped\": texture \"gone.png\" is not there (");
     fails(put_triangle("newmtl striped\nmap_Kd gone.png\n", UVS), NULL, "--no-textures");
     (void)folder_put_text("text.png", "no image");
-    fails(put_triangle("newmtl striped\nmap_Kd text.png\n", UVS), NULL, "text.png\": is neither a PNG nor a JPEG file");
+    fails(put_triangle("newmtl striped\nmap_Kd text.png\n", UVS), NULL,
+          "text.png\": is neither a PNG nor a JPEG file; convert it, or leave images out (--no-textures)");
     (void)folder_put_bytes("cut.png", "\x89PNG\r\n\x1a\n", 8);
     fails(put_triangle("newmtl striped\nmap_Kd cut.png\n", UVS), NULL, "cut.png\": is a broken PNG file");
     (void)folder_put_bytes("empty.png", "", 0);
@@ -411,7 +412,7 @@ static void an_image_of_two_materials_is_stored_once(void **state) {
 }
 
 /* A triangle of glTF with a 1 x 1 image of (1, 2, 3), all in one file. */
-static const char *put_gltf(const char *sampler) {
+static const char *put_gltf(const char *sampler, const char *transform) {
     static const char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     static const uint8_t pixel[3] = {1, 2, 3};
     const float buffer[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1};
@@ -434,22 +435,23 @@ static const char *put_gltf(const char *sampler) {
     }
     free(png.at);
     (void)snprintf(json, sizeof json,
-                   "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+                   "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_texture_transform\"],\"scene\":0,\"scenes\":[{"
+                   "\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
                    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"material\":0}]}],"
-                   "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}},\"doubleSided\":true}],"
+                   "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0%s}},\"doubleSided\":true}],"
                    "\"textures\":[{\"source\":0,\"sampler\":0}],\"samplers\":[{%s}],"
                    "\"images\":[{\"uri\":\"data:image/png;base64,%s\"}],"
                    "\"buffers\":[{\"byteLength\":60,\"uri\":\"data:application/octet-stream;base64,%s\"}],"
                    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":24}],"
                    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],"
                    "\"max\":[1,1,0]},{\"bufferView\":1,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"}]}",
-                   sampler, texts[1], texts[0]);
+                   transform, sampler, texts[1], texts[0]);
     return folder_put_text("one.gltf", json);
 }
 
 static void embedded_images_sampler_and_sides_of_gltf_are_read(void **state) {
     (void)state;
-    built_t b = load(put_gltf("\"wrapS\":33071,\"wrapT\":10497"), &(mesh_options_t){.texture_format = 1 + TUILE_TEXEL_GREY8});
+    built_t b = load(put_gltf("\"wrapS\":33071,\"wrapT\":10497", ""), &(mesh_options_t){.texture_format = 1 + TUILE_TEXEL_GREY8});
     const uint8_t *texture = at(&b, 132);
     assert_int_equal(decoder_u16(b.bytes + 136), 1);
     assert_int_equal(texture[14], TUILE_TEXTURE_CLAMP_S);
@@ -462,10 +464,17 @@ static void embedded_images_sampler_and_sides_of_gltf_are_read(void **state) {
 
 static void what_is_done_otherwise_is_warned_of(void **state) {
     (void)state;
-    built_t b = load(put_gltf("\"wrapS\":33648,\"wrapT\":33648"), NULL);
+    built_t b = load(put_gltf("\"wrapS\":33648,\"wrapT\":33648", ""), NULL);
     assert_non_null(strstr(b.report.warnings, "mirrored along s; it is repeated\n"));
     assert_non_null(strstr(b.report.warnings, "mirrored along t; it is repeated\n"));
     assert_int_equal(at(&b, 132)[14], 0);
+    assert_null(strstr(b.report.warnings, "moved"));
+    free(b.bytes);
+    b = load(put_gltf("", ",\"extensions\":{\"KHR_texture_transform\":{\"offset\":[0.5,0]}}"), NULL);
+    assert_non_null(strstr(b.report.warnings, "is moved, scaled or turned; that is left out\n"));
+    free(b.bytes);
+    b = load(put_gltf("", ",\"extensions\":{\"KHR_texture_transform\":{\"scale\":[1,1]}}"), NULL);
+    assert_string_equal(b.report.warnings, "");
     free(b.bytes);
     put_stripes("stripes.png");
     (void)folder_put_text("a.mtl", MTL);

@@ -184,5 +184,5 @@ int image_decode(image_t *image, const uint8_t *bytes, size_t size_bytes, const 
     *image = (image_t){0};
     if (size_bytes >= 8 && !memcmp(bytes, "\x89PNG\r\n\x1a\n", 8)) { return decode_png(image, bytes, size_bytes, name, error); }
     if (size_bytes >= 3 && !memcmp(bytes, "\xff\xd8\xff", 3)) { return decode_jpeg(image, bytes, size_bytes, name, error); }
-    return sim_fail(error, "%s: is neither a PNG nor a JPEG file; convert it", name);
+    return sim_fail(error, "%s: is neither a PNG nor a JPEG file; convert it, or leave images out (--no-textures)", name);
 }

@@ -23,7 +23,7 @@ void mesh_warn(mesh_t *mesh, const char *format, ...) {
         mesh->warnings[used] = 0;
         return;
     }
-    (void)strcat(mesh->warnings, "\n");
+    memcpy(mesh->warnings + used + wanted, "\n", 2);
 }
 
 /* ---- images ------------------------------------------------------------------------------------------------------- */
@@ -148,6 +148,14 @@ static int enter_texture(collector_t *c, const import_material_t *material, cons
     return texture->name ? (int)mesh->texture_count - 1 : import_no_memory(c);
 }
 
+static bool is_transformed(const struct aiMaterial *from, enum aiTextureType type) {
+    float of[5] = {0, 0, 1, 1, 0}; /* translation, scaling, rotation: struct aiUVTransform */
+    unsigned count = 5;
+    return aiGetMaterialFloatArray(from, _AI_MATKEY_UVTRANSFORM_BASE, (unsigned)type, 0, of, &count) == aiReturn_SUCCESS &&
+           (of[0] < 0 || of[0] > 0 || of[1] < 0 || of[1] > 0 || of[2] < 1 || of[2] > 1 || of[3] < 1 || of[3] > 1 || of[4] < 0 ||
+            of[4] > 0);
+}
+
 static int import_texture(collector_t *c, const struct aiMaterial *from, import_material_t *to) {
     enum aiTextureType type = aiTextureType_DIFFUSE;
     struct aiString named;
@@ -164,10 +172,7 @@ static int import_texture(collector_t *c, const struct aiMaterial *from, import_
         mesh_warn(&c->mesh, "material \"%s\": its texture is projected, which is not done; it is left out", to->name);
         return 0;
     }
-    struct aiUVTransform transform;
-    unsigned size = sizeof transform / sizeof(float);
-    if (aiGetMaterialFloatArray(from, _AI_MATKEY_UVTRANSFORM_BASE, (unsigned)type, 0, (float *)&transform, &size) ==
-        aiReturn_SUCCESS) {
+    if (is_transformed(from, type)) {
         mesh_warn(&c->mesh, "material \"%s\": its texture is moved, scaled or turned; that is left out", to->name);
     }
     for (int axis = 0; axis < 2; axis++) {

@@ -195,7 +195,7 @@ static int rebuild(mesh_t *mesh, const soup_t *soup, const uint32_t *indices, si
     for (size_t i = 0; i < index_count; i++) {
         made.corners[i] = soup->positions[indices[i]];
         if (textured) { memcpy(made.texcoords[i], soup->keys[indices[i]].texcoord, sizeof *made.texcoords); }
-        if (coloured) { memcpy(made.colours[i], soup->keys[indices[i]].colour, sizeof *made.colours); }
+        if (coloured) { memcpy(made.colours[i], soup->keys[indices[i]].colour, sizeof soup->keys[0].colour); }
     }
     for (size_t f = 0; f < made.face_count; f++) {
         made.faces[f] = (mesh_face_t){

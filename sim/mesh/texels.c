@@ -238,7 +238,7 @@ static uint32_t texel_of(const making_t *m, const mesh_texture_t *texture, unsig
     if (keyed && pixel[3] < 128) { return texture->key; }
     switch (texture->format) {
     case TUILE_TEXEL_PALETTE8:
-    case TUILE_TEXEL_PALETTE4: return level ? nearest_entry(m, pixel) : m->index[i];
+    case TUILE_TEXEL_PALETTE4: return level || !m->index ? nearest_entry(m, pixel) : m->index[i];
     case TUILE_TEXEL_GREY8: texel = grey8(pixel); break;
     case TUILE_TEXEL_ARGB4444: return argb4444(pixel);
     default: texel = rgb565(pixel); break;
