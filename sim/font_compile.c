@@ -112,7 +112,7 @@ int font_compile(const font_source_t *source, const font_range_t *ranges, size_t
     if (count == 0) { return sim_fail(error, "the font has no glyph in the range that is asked for"); }
     if (count > UINT16_MAX) { return sim_fail(error, "%zu glyphs; at most %u are supported, see --range", count, UINT16_MAX); }
     const size_t table = FONT_HEADER_BYTES + count * FONT_GLYPH_BYTES;
-    uint8_t *font = calloc(1, table + most);
+    uint8_t *font = calloc(1, table + most + 3);
     if (!font) { return sim_fail(error, "out of memory"); }
     out_t out = {font + FONT_HEADER_BYTES, font + table, 0};
     size_t index = 0;
@@ -123,7 +123,7 @@ int font_compile(const font_source_t *source, const font_range_t *ranges, size_t
             return -1;
         }
     }
-    const size_t size = table + out.bit_bytes;
+    const size_t size = (table + out.bit_bytes + 3) / 4 * 4; /* whole words: what a C source has sizeof */
     put32(font + FONT_AT_MAGIC, FONT_MAGIC);
     put32(font + FONT_AT_VERSION, FONT_VERSION | (uint32_t)count << 16);
     put32(font + FONT_AT_SIZE, (uint32_t)size);

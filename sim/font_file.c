@@ -45,9 +45,9 @@ int font_ranges_parse(const char *text, font_range_t ranges[FONT_RANGES_MAX], si
 
 static int put_source(FILE *file, const uint8_t *bytes, size_t size_bytes, const char *name) {
     (void)fprintf(file,
-                  "/* A compiled font for tuile_font_open(&font, %s, %zu): the words hold so many bytes.\n"
-                  " * %u glyphs, lines of %u dots. The words are little-endian, as the machine has to be. */\n",
-                  name, size_bytes, bytes[FONT_AT_GLYPHS] | (unsigned)bytes[FONT_AT_GLYPHS + 1] << 8, bytes[FONT_AT_HEIGHT]);
+                  "/* A compiled font for tuile_font_open(&font, %s, sizeof %s).\n"
+                  " * %u glyphs, lines of %u dots, %zu bytes. The words are little-endian, as the machine has to be. */\n",
+                  name, name, bytes[FONT_AT_GLYPHS] | (unsigned)bytes[FONT_AT_GLYPHS + 1] << 8, bytes[FONT_AT_HEIGHT], size_bytes);
     return c_put_words(file, bytes, size_bytes, name);
 }
 

@@ -7,14 +7,14 @@
 /* ---- usage -------------------------------------------------------------------------------------------------- */
 
 static void help_goes_to_stdout_and_wrong_usage_to_stderr(void **state) {
-    static const char *const commands[] = {"render", "mesh", "faces", "coverage"};
+    static const char *const commands[] = {"render", "mesh", "font", "faces", "coverage"};
     static const char *const spellings[] = {"--help", "-h", "help"};
     command_result_t result;
     (void)state;
     for (unsigned i = 0; i < 3; i++) {
         char *out = cli_good(spellings[i]);
         assert_int_equal(strncmp(out, "Usage: tuile COMMAND", 20), 0);
-        for (unsigned c = 0; c < 4; c++) {
+        for (unsigned c = 0; c < CHECK_COUNT(commands); c++) {
             assert_non_null(strstr(out, commands[c]));
         }
         free(out);
@@ -24,7 +24,7 @@ static void help_goes_to_stdout_and_wrong_usage_to_stderr(void **state) {
     assert_string_equal(result.out, "");
     assert_int_equal(strncmp(result.err, "Usage: tuile", 12), 0);
     command_free(&result);
-    for (unsigned c = 0; c < 4; c++) {
+    for (unsigned c = 0; c < CHECK_COUNT(commands); c++) {
         char line[64], begin[64];
         (void)snprintf(line, sizeof line, "%s --help", commands[c]);
         (void)snprintf(begin, sizeof begin, "Usage: tuile %s ", commands[c]);
