@@ -318,6 +318,59 @@ static void damaged_fonts_are_refused_or_drawn_without_harm(void **state) {
     free(bytes);
 }
 
+/* Each rule by itself, with the check sum right. The first glyph is '!', 1 x 7 dots; the second one '"'. */
+static void fonts_that_break_a_rule_are_refused(void **state) {
+    enum { FIRST = FONT_HEADER_BYTES, SECOND = FONT_HEADER_BYTES + FONT_GLYPH_BYTES };
+    static const struct {
+        unsigned at;
+        uint8_t value;
+    } rules[] = {
+        {FONT_AT_MAGIC, 'X'},
+        {FONT_AT_VERSION, 2},
+        {FONT_AT_GLYPHS, 0},
+        {FONT_AT_GLYPHS, 99},
+        {FONT_AT_HEIGHT, 0},
+        {FONT_AT_HEIGHT, 128},
+        {FONT_AT_ASCENT, 11},
+        {FONT_AT_ADVANCE, 0},
+        {FONT_AT_ZERO, 1},
+        {FONT_AT_BITS, 1},
+        {SECOND, '!'},
+        {SECOND, ' '},
+        {SECOND + 2, 0x11},
+        {SECOND + 1, 0xd8},
+        {SECOND + 1, 0xdf},
+        {SECOND + 2, 0x20},
+        {FIRST + GLYPH_AT_WIDTH, 128},
+        {FIRST + GLYPH_AT_HEIGHT, 128},
+        {FIRST + GLYPH_AT_WIDTH, 0},
+        {FIRST + GLYPH_AT_HEIGHT, 0},
+        {FIRST + GLYPH_AT_BITS + 1, 1},
+        {FIRST + GLYPH_AT_BITS + 3, 0x80},
+        {FIRST + GLYPH_AT_WIDTH, 127},
+    };
+    static const font_range_t two[] = {{'!', '"'}};
+    font_source_t source;
+    uint8_t *bytes;
+    _Alignas(4) uint8_t copy[256];
+    size_t size;
+    (void)state;
+    assert_int_equal(font_bdf_parse(&source, font_default_text, (size_t)(font_default_end - font_default_text), "own", NULL), 0);
+    assert_int_equal(font_compile(&source, two, 1, &bytes, &size, NULL, NULL), 0);
+    font_source_free(&source);
+    assert_in_range(size, FONT_HEADER_BYTES + 2 * FONT_GLYPH_BYTES + 2, sizeof copy);
+    for (unsigned i = 0; i < CHECK_COUNT(rules); i++) {
+        tuile_font_t opened;
+        memcpy(copy, bytes, size);
+        put_right(copy, size);
+        assert_int_equal(tuile_font_open(&opened, copy, size), 0);
+        copy[rules[i].at] = rules[i].value;
+        put_right(copy, size);
+        if (tuile_font_open(&opened, copy, size) != TUILE_ERROR_FONT) { fail_msg("rule %u", i); }
+    }
+    free(bytes);
+}
+
 static void what_cannot_be_opened_is_an_argument_error(void **state) {
     tuile_font_t opened;
     (void)state;
@@ -362,6 +415,7 @@ int main(void) {
         cmocka_unit_test(frames_a_second_follow_slowly),
         cmocka_unit_test(the_counter_says_frames_a_second),
         cmocka_unit_test(damaged_fonts_are_refused_or_drawn_without_harm),
+        cmocka_unit_test(fonts_that_break_a_rule_are_refused),
         cmocka_unit_test(what_cannot_be_opened_is_an_argument_error),
         cmocka_unit_test(the_own_font_has_latin_1),
     };

@@ -226,6 +226,10 @@ static void fill_all(const void *context, tuile_canvas_t *canvas) {
     tuile_draw_rectangle(canvas, 0, 0, 4, 4, *(const uint32_t *)context);
 }
 
+static void fill_window(const void *context, tuile_canvas_t *canvas) {
+    tuile_draw_rectangle(canvas, 0, 0, 128, 128, *(const uint32_t *)context);
+}
+
 /* Of 0x204060, alpha 64 of 0xff8000: (32 * 191 + 255 * 64 + 127) / 255 = 88.5 -> 88, (64 * 191 + 128 * 64 + 127) / 255 = 80.6 ->
  * 80, (96 * 191 + 127) / 255 = 72.4 -> 72. */
 static void alpha_mixes_components_by_hand(void **state) {
@@ -257,6 +261,29 @@ static void every_kind_of_sample_is_mixed(void **state) {
         window_draw(&window, 3, 4, fill_all, &half);
         assert_int_equal(window.samples[0], kinds[i].sample);
         assert_int_equal(window.samples[15], kinds[i].sample);
+    }
+}
+
+/* All 65536 samples of both byte orders: the fast way of 565 is the way by eight bits a component. */
+static void samples_of_565_are_mixed_exactly(void **state) {
+    static const uint32_t alphas[] = {1, 2, 85, 127, 128, 200, 253, 254};
+    (void)state;
+    window_open(&window, 128, 128);
+    for (unsigned k = 0; k < 8 * CHECK_COUNT(alphas); k++) {
+        const uint32_t alpha = alphas[k / 8], colour = TUILE_ARGB(alpha, k * 37 % 256, 255 - k * 11 % 256, k * 91 % 256);
+        window.kind = k & 1 ? PIXEL_RGB565_BE : PIXEL_RGB565_LE;
+        for (uint32_t i = 0; i < 16384; i++) {
+            window.samples[i] = (k / 2 % 4) * 16384 + i;
+        }
+        window_draw(&window, 128, 128, fill_window, &colour);
+        for (uint32_t i = 0; i < 16384; i++) {
+            const uint32_t behind = pixel_unpack(window.kind, (k / 2 % 4) * 16384 + i);
+            uint32_t mixed = 0;
+            for (unsigned shift = 0; shift < 24; shift += 8) {
+                mixed |= ((behind >> shift & 255) * (255 - alpha) + (colour >> shift & 255) * alpha + 127) / 255 << shift;
+            }
+            assert_int_equal(window.samples[i], pixel_pack(window.kind, mixed));
+        }
     }
 }
 
@@ -346,6 +373,46 @@ static void moved_shapes_look_the_same(void **state) {
     }
 }
 
+/* ---- dials ---- */
+
+static void draw_gauge(const void *context, tuile_canvas_t *canvas) { (void)tuile_draw_gauge(canvas, context); }
+
+static void needles_stay_on_their_dials(void **state) {
+    static const tuile_gauge_t good = {.x = 20, .y = 20, .radius = 18, .low = -5, .high = 10, .track = WHITE, .needle = WHITE};
+    static const int32_t pairs[][2] = {{-6, -5}, {INT32_MIN, -5}, {11, 10}, {INT32_MAX, 10}};
+    static window_t held;
+    tuile_gauge_t gauge = good;
+    tuile_canvas_t canvas = {0};
+    (void)state;
+    for (unsigned i = 0; i < CHECK_COUNT(pairs); i++) {
+        window_open(&window, 40, 40);
+        window_open(&held, 40, 40);
+        gauge.value = pairs[i][0];
+        window_draw(&window, 40, 40, draw_gauge, &gauge);
+        gauge.value = pairs[i][1];
+        window_draw(&held, 40, 40, draw_gauge, &gauge);
+        assert_memory_equal(window.samples, held.samples, sizeof window.samples);
+    }
+    /* The lowest value points left below, the highest right below, the one between straight up. */
+    gauge.track = 0;
+    for (int32_t i = 0; i < 3; i++) {
+        static const int32_t values[] = {-5, 10, 2}, tips[][2] = {{12, 28}, {28, 28}, {20, 9}};
+        gauge.low = i == 2 ? -6 : -5;
+        gauge.value = values[i];
+        window_open(&window, 40, 40);
+        window_draw(&window, 40, 40, draw_gauge, &gauge);
+        assert_int_equal(window_at(&window, tips[i][0], tips[i][1]), 0xffffff);
+        assert_int_equal(window_at(&window, 40 - tips[i][0], 40 - tips[i][1]), 0);
+    }
+    gauge.low = gauge.high;
+    assert_int_equal(tuile_draw_gauge(&canvas, &gauge), TUILE_ERROR_ARGUMENT);
+    gauge = good;
+    gauge.radius = 3;
+    assert_int_equal(tuile_draw_gauge(&canvas, &gauge), TUILE_ERROR_ARGUMENT);
+    gauge.radius = 1025;
+    assert_int_equal(tuile_draw_gauge(&canvas, &gauge), TUILE_ERROR_ARGUMENT);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rectangles_have_their_pixels_and_no_others),
@@ -360,6 +427,8 @@ int main(void) {
         cmocka_unit_test(what_is_no_texture_is_refused),
         cmocka_unit_test(alpha_mixes_components_by_hand),
         cmocka_unit_test(every_kind_of_sample_is_mixed),
+        cmocka_unit_test(samples_of_565_are_mixed_exactly),
+        cmocka_unit_test(needles_stay_on_their_dials),
         cmocka_unit_test(tiles_do_not_matter_whatever_the_numbers),
         cmocka_unit_test(moved_shapes_look_the_same),
     };

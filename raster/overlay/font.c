@@ -28,13 +28,19 @@ int tuile_font_open(tuile_font_t *font, const void *data, size_t size_bytes) {
         bits != FONT_HEADER_BYTES + count * FONT_GLYPH_BYTES || bits > size_bytes) {
         return TUILE_ERROR_FONT;
     }
+    int16_t top = 0, bottom = (int16_t)height;
     for (uint32_t i = 0; i < count; i++) {
         const uint8_t *glyph = glyphs + i * FONT_GLYPH_BYTES;
         if (!check_glyph(glyph, (uint32_t)size_bytes - bits) ||
             (i > 0 && glyph_code(glyph) <= glyph_code(glyph - FONT_GLYPH_BYTES))) {
             return TUILE_ERROR_FONT;
         }
+        const int16_t first = (int8_t)glyph[GLYPH_AT_TOP], end = (int16_t)(first + glyph[GLYPH_AT_HEIGHT]);
+        top = first < top ? first : top;
+        bottom = end > bottom ? end : bottom;
     }
+    font->top = top;
+    font->bottom = bottom;
     font->glyphs = glyphs;
     font->bits = bytes + bits;
     font->glyph_count = (uint16_t)count;
@@ -46,6 +52,11 @@ int tuile_font_open(tuile_font_t *font, const void *data, size_t size_bytes) {
 
 const uint8_t *font_glyph(const tuile_font_t *font, uint32_t code) {
     uint32_t low = 0, high = font->glyph_count;
+    /* Most fonts begin with all of ASCII. */
+    const uint32_t guess = code - glyph_code(font->glyphs);
+    if (guess < high && glyph_code(font->glyphs + guess * FONT_GLYPH_BYTES) == code) {
+        return font->glyphs + guess * FONT_GLYPH_BYTES;
+    }
     while (low < high) {
         const uint32_t middle = (low + high) / 2;
         const uint8_t *glyph = font->glyphs + middle * FONT_GLYPH_BYTES;

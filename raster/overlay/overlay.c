@@ -47,16 +47,46 @@ static uint32_t mix(uint32_t behind, uint32_t colour, uint32_t alpha) {
                      mix8(behind & 255, colour & 255, alpha));
 }
 
+/* x / 31 and x / 63, rounded, of a step times 255: exact for all steps (tests/test_overlay.c). */
+static uint32_t spread31(uint32_t step) { return (step * 527u + 23u) >> 6; }
+static uint32_t spread63(uint32_t step) { return (step * 259u + 33u) >> 6; }
+
+static uint32_t swap16(uint32_t x) { return (x >> 8 | x << 8) & 0xffffu; }
+
+/* What pixel_unpack, mix and pixel_pack make, for the formats that most panels take; `behind` and the result in the machine's
+ * order. */
+static uint32_t mix565(uint32_t behind, uint32_t colour, uint32_t alpha) {
+    const uint32_t red = mix8(spread31(behind >> 11), colour >> 16 & 255, alpha),
+                   green = mix8(spread63(behind >> 5 & 63), colour >> 8 & 255, alpha),
+                   blue = mix8(spread31(behind & 31), colour & 255, alpha);
+    return pixel_div255(red * 31 + 127) << 11 | pixel_div255(green * 63 + 127) << 5 | pixel_div255(blue * 31 + 127);
+}
+
+static uint32_t mix_sample(pixel_kind_t kind, const overlay_paint_t *paint, uint32_t sample, uint32_t alpha) {
+    switch (kind) {
+    case PIXEL_RGB565_LE: return mix565(sample, paint->argb, alpha);
+    case PIXEL_RGB565_BE: return swap16(mix565(swap16(sample), paint->argb, alpha));
+    case PIXEL_LUMA16: return (sample * (255 - alpha) + paint->sample * alpha + 127) / 255; /* whole: not by way of 8 bits */
+    default: return pixel_pack(kind, mix(pixel_unpack(kind, sample), paint->argb, alpha));
+    }
+}
+
+/* Neighbours are often equal, above all where nothing but the background is. */
 static void blend_run(pixel_kind_t kind, const overlay_paint_t *paint, void *samples, int32_t count, uint32_t alpha) {
+    const bool is_narrow = pixel_bytes(kind) == 2;
     uint16_t *narrow = samples;
     uint32_t *wide = samples;
+    uint32_t behind = is_narrow ? narrow[0] : wide[0], mixed = mix_sample(kind, paint, behind, alpha);
     for (int32_t i = 0; i < count; i++) {
-        if (kind == PIXEL_LUMA16) { /* whole: unpacking would round it to 8 bits */
-            narrow[i] = (uint16_t)((narrow[i] * (255 - alpha) + paint->sample * alpha + 127) / 255);
-        } else if (pixel_bytes(kind) == 2) {
-            narrow[i] = (uint16_t)pixel_pack(kind, mix(pixel_unpack(kind, narrow[i]), paint->argb, alpha));
+        const uint32_t sample = is_narrow ? narrow[i] : wide[i];
+        if (sample != behind) {
+            behind = sample;
+            mixed = mix_sample(kind, paint, sample, alpha);
+        }
+        if (is_narrow) {
+            narrow[i] = (uint16_t)mixed;
         } else {
-            wide[i] = pixel_pack(kind, mix(pixel_unpack(kind, wide[i]), paint->argb, alpha));
+            wide[i] = mixed;
         }
     }
 }

@@ -99,9 +99,10 @@ int tuile_draw_image(tuile_canvas_t *canvas, const tuile_texture_t *image, int32
 typedef struct tuile_font {
     const uint8_t *glyphs, *bits;
     uint16_t glyph_count;
-    uint8_t height;  /* of a line, pixels */
-    uint8_t ascent;  /* rows above the base line */
-    uint8_t advance; /* of characters that have no glyph */
+    uint8_t height;      /* of a line, pixels */
+    uint8_t ascent;      /* rows above the base line */
+    uint8_t advance;     /* of characters that have no glyph */
+    int16_t top, bottom; /* rows of a line, from its top, that some glyph or background may reach: top ... bottom - 1 */
 } tuile_font_t;
 
 /* Opens a font that `tuile font` wrote. All of it is checked (the check sum too), so that a font that opens can be drawn without a

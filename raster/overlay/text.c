@@ -95,32 +95,40 @@ static void draw_line(text_pen_t *pen, const char **text) {
     }
 }
 
-/* May some dot of a line be in the tile? Boxes of glyphs may reach up to 128 + 127 rows out of it. */
+/* May some dot of a line be in the tile? */
 static bool line_near(const text_pen_t *pen) {
-    const int64_t reach = 256 * (int64_t)pen->scale;
-    return pen->y < pen->canvas->tile.bottom + reach && pen->y + pen->font->height * pen->scale > pen->canvas->tile.top - reach;
+    const tuile_box_t *tile = &pen->canvas->tile;
+    return pen->y + pen->font->top * pen->scale < tile->bottom && pen->y + pen->font->bottom * pen->scale > tile->top;
+}
+
+/* A line, its background first; x and pen->y as tuile_text_styled has them. Where it ends. */
+static const char *draw_aligned(text_pen_t *pen, int32_t x, const char *text, const tuile_text_style_t *style) {
+    const char *end = text;
+    pen->x = x;
+    if (style->align != TUILE_ALIGN_LEFT || style->background >> 24) {
+        const overlay_paint_t background = overlay_paint(pen->canvas, style->background);
+        const int64_t width = line_width(pen->font, &end) * pen->scale, height = pen->font->height * pen->scale;
+        tuile_box_t box;
+        pen->x -= style->align == TUILE_ALIGN_RIGHT ? width : style->align == TUILE_ALIGN_CENTRE ? width >> 1 : 0;
+        if (background.argb >> 24 && overlay_cut(pen->canvas, pen->x, pen->y, pen->x + width, pen->y + height, &box)) {
+            overlay_fill(pen->canvas, &background, &box);
+        }
+    }
+    draw_line(pen, &text);
+    return text;
 }
 
 void tuile_text_styled(tuile_canvas_t *canvas, const tuile_font_t *font, int32_t x, int32_t y, const char *text,
                        const tuile_text_style_t *style) {
     text_pen_t pen = {canvas, font, overlay_paint(canvas, style->colour), 0, y, style->scale ? style->scale : 1};
-    const overlay_paint_t background = overlay_paint(canvas, style->background);
     for (;; text++, pen.y += font->height * pen.scale) {
-        const char *end = text;
-        if (!line_near(&pen)) {
-            while (*end != '\0' && *end != '\n') {
-                end++;
-            }
+        if (line_near(&pen)) {
+            text = draw_aligned(&pen, x, text, style);
         } else {
-            const int64_t width = line_width(font, &end) * pen.scale;
-            tuile_box_t box;
-            pen.x = style->align == TUILE_ALIGN_RIGHT ? x - width : style->align == TUILE_ALIGN_CENTRE ? x - (width >> 1) : x;
-            if (background.argb >> 24 && overlay_cut(canvas, pen.x, pen.y, pen.x + width, pen.y + font->height * pen.scale, &box)) {
-                overlay_fill(canvas, &background, &box);
+            while (*text != '\0' && *text != '\n') {
+                text++;
             }
-            draw_line(&pen, &text);
         }
-        text = end;
         if (*text == '\0') { return; }
     }
 }
