@@ -3,7 +3,7 @@
 #define TUILE_FEATURES_H
 
 #ifndef TUILE_FEATURES
-#define TUILE_FEATURES 0x1ff
+#define TUILE_FEATURES 0x3ff
 #endif
 
 /* Formats (1 << tuile_format_t, or-ed) that a build has. */
@@ -20,6 +20,7 @@
 #define FEATURE_RESOLVE 64  /* formats that are not drawn in wire bytes, dithering */
 #define FEATURE_MORPH 128   /* instances between two key frames */
 #define FEATURE_SAMPLES 256 /* several samples a pixel: anti-aliasing; on top of RESOLVE */
+#define FEATURE_OVERLAY 512 /* config.overlay; what it calls is linked by those who call it */
 
 #define TUILE_HAS(feature) (((TUILE_FEATURES) & (FEATURE_##feature)) != 0)
 #define TUILE_HAS_FORMAT(format) (((TUILE_FORMATS) >> (format)&1) != 0)

@@ -60,3 +60,4 @@ without resolve TUILE_FEATURES=0x0bf "$(echo raster/resolve/*.c)" ".format = TUI
 without samples TUILE_FEATURES=0x0ff "raster/resolve/mean.c" ".aa = TUILE_AA_2X2"
 without formats TUILE_FORMATS=0x001 "" ".format = TUILE_RGB332"
 without_in_scene "key frames" TUILE_FEATURES=0x17f "$(echo raster/frame/morph.c raster/geometry/morph.c raster/scene/*.c)" ".morph = 1"
+without overlays TUILE_FEATURES=0x1ff "$(echo raster/overlay/*.c)" ".overlay = (tuile_overlay_fn)8"

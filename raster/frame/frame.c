@@ -77,9 +77,9 @@ static bool config_complete(tuile_config_t *c, size_t size_bytes) {
         c->corners > 255 || c->row_first > c->height || c->row_end > c->height || (c->row_end != 0 && c->row_end < c->row_first) ||
         c->warnock > 31 || c->aa > TUILE_AA_4X4 || c->effects > 3 || c->edges > TUILE_EDGES_OUTLINE || c->texturing > 15 ||
         c->width << c->aa > TUILE_SAMPLES_MAX || c->height << c->aa > TUILE_SAMPLES_MAX ||
-        (c->edges != TUILE_EDGES_NONE && !(c->effects & TUILE_LAYERS)) || !TUILE_HAS_FORMAT(c->format) ||
-        (!TUILE_HAS(RESOLVE) && TUILE_RESOLVES(c->format, 1u << c->aa, c->dither)) || (!TUILE_HAS(SAMPLES) && c->aa) ||
-        (!TUILE_HAS(SURFACES) && TUILE_DEFERS(c->format, c->effects, c->dither)) ||
+        (c->edges != TUILE_EDGES_NONE && !(c->effects & TUILE_LAYERS)) || (!TUILE_HAS(OVERLAY) && c->overlay) ||
+        !TUILE_HAS_FORMAT(c->format) || (!TUILE_HAS(RESOLVE) && TUILE_RESOLVES(c->format, 1u << c->aa, c->dither)) ||
+        (!TUILE_HAS(SAMPLES) && c->aa) || (!TUILE_HAS(SURFACES) && TUILE_DEFERS(c->format, c->effects, c->dither)) ||
         (c->format == TUILE_FACE_IDS && (c->aa || c->dither || c->effects || c->overlay))) {
         return false;
     }
@@ -279,7 +279,7 @@ int tuile_next(tuile_t *t, tuile_tile_t *tile) {
         tile->height = (uint16_t)((t->tile.bottom - t->tile.top) >> t->samples);
         tile->bytes = t->colours[t->next_buffer];
         tile->size_bytes = (uint32_t)TUILE_WIRE_BYTES(t->config.format, tile->width, tile->height);
-        if (t->given.overlay) { overlay_tile(t); }
+        if (TUILE_HAS(OVERLAY) && t->given.overlay) { overlay_tile(t); }
         if (TUILE_HAS(RESOLVE) && t->working) { resolve_tile(t); }
         t->next_buffer = (uint8_t)((t->next_buffer + 1) % t->config.buffers);
         t->next_tile += t->config.tile_step;
