@@ -458,6 +458,11 @@ static void embedded_images_sampler_and_sides_of_gltf_are_read(void **state) {
     assert_int_equal(b.bytes[decoder_u32(texture)], 2);         /* (77 + 300 + 87) / 256 */
     assert_int_equal(at(&b, 88)[11], TUILE_MATERIAL_TWO_SIDED); /* the texture is multiplied by the colour */
     assert_int_equal(at(&b, 88)[3], 255);
+    /* (0, 0), (1, 0), (0, 1), downwards; along t, which repeats, one less. */
+    static const int expected[6] = {0, -256, 256, -256, 0, 0};
+    for (size_t i = 0; i < 6; i++) {
+        assert_int_equal(s16(at(&b, 124) + 2 * i), expected[i]);
+    }
     assert_string_equal(b.report.warnings, "");
     free(b.bytes);
 }
