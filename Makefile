@@ -61,7 +61,7 @@ define need
 	@mkdir -p $(@D) && touch $@
 endef
 
-.PHONY: golden help all demo test test-asan test-clang check bench bench-methods docs-pictures gallery size size-arm format format-check lint clean
+.PHONY: golden help all demo test test-asan test-clang check bench bench-methods bench-instances docs-pictures gallery size size-arm format format-check lint clean
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' Makefile | sed 's/:.*##/\t/' | expand -t 16
 
@@ -200,6 +200,12 @@ $(COMPARED)/%.tuile: $(TUILE)
 
 bench-methods: $(OBJ)/bench $(BUILD)/need/bench $(COMPARED_MODELS) ## the five methods over four scenes: instructions, memory, overdraw, flash
 	@sh tests/bench/methods.sh $(OBJ)/bench $(COMPARED) $(COMPARED) $(SIZE) $(METHODS_TILE) $(METHODS_SCENES)
+
+$(OBJ)/instances: $(OBJ)/tests/bench/instances.o $(SIM_LIB_OBJ) $(CORE_OBJ)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
+
+bench-instances: $(OBJ)/instances $(BUILD)/need/bench $(COMPARED)/sphere.tuile ## what instances cost that nobody sees
+	@sh tests/bench/instances.sh $(OBJ)/instances $(BUILD)/bench 16 tests/models/link.obj $(COMPARED)/sphere.tuile
 
 # ---- pictures of docs/methods.md: one view of each method, from the inside of a room and of four beams -----------------
 PICTURES := docs/pictures
