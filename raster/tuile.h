@@ -173,7 +173,10 @@ typedef struct tuile_instance {
     const tuile_model_t *model;
     tuile_pose_t pose;
     bool two_sided; /* draw back faces too, lit as front faces */
-    const tuile_material_t *materials; /* material_count of them in the place of the model's own; NULL: the model's */
+    const tuile_material_t *materials; /* material_count of them in the place of the model's own; NULL: the model's. Without
+                                          config.effects a scene has 256 materials at most, those of a model counted once for each
+                                          array in their place; with SURFACES there is no limit. A texture that the
+                                          model does not have is none; fields out of range are TUILE_ERROR_ARGUMENT */
     uint16_t morph; /* how far towards the second key frame, 0 ... TUILE_MORPH_ONE; 0 for models without one. See TUILE_MORPH_BYTES */
 } tuile_instance_t;
 

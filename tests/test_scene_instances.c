@@ -192,11 +192,38 @@ static void more_than_256_materials_want_deferred_shading(void **state) {
     model_free(&square);
 }
 
+static void materials_out_of_range_are_refused(void **state) {
+    static uint64_t block[8192];
+    model_compiled_t square;
+    tuile_t *renderer;
+    (void)state;
+    open_square(&square);
+    const tuile_config_t config = {.width = 64, .height = 64, .tile_height = 8, .effects = TUILE_SURFACES};
+    const struct {
+        tuile_material_t material;
+        int error;
+    } cases[] = {
+        {{.uv_bits = 8, .shininess = 7, .blend = TUILE_BLEND_MULTIPLY, .texture = 9}, TUILE_OK},
+        {{.uv_bits = 9}, TUILE_ERROR_ARGUMENT},
+        {{.shininess = 8}, TUILE_ERROR_ARGUMENT},
+        {{.blend = 3}, TUILE_ERROR_ARGUMENT},
+    };
+    for (size_t i = 0; i < CHECK_COUNT(cases); i++) {
+        tuile_instance_t instance = stage_placed(&square.model, 0);
+        instance.materials = &cases[i].material;
+        const tuile_scene_t scene = {.instances = &instance, .instance_count = 1, .camera = stage_plain_camera(64, 64)};
+        assert_int_equal(tuile_init(&renderer, &config, block, sizeof block, NULL), TUILE_OK);
+        assert_int_equal(tuile_begin(renderer, &scene), cases[i].error);
+    }
+    model_free(&square);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_model_with_a_vertex_in_the_window_is_dropped),
         cmocka_unit_test(instances_beside_the_window_cost_no_cluster_and_change_nothing),
         cmocka_unit_test(each_instance_has_the_materials_that_it_brings),
+        cmocka_unit_test(materials_out_of_range_are_refused),
         cmocka_unit_test(more_than_256_materials_want_deferred_shading),
     };
     return cmocka_run_group_tests_name("scene instances", tests, NULL, NULL);

@@ -186,6 +186,7 @@ static int check_scene(const tuile_t *t, const tuile_scene_t *scene, uint32_t *m
         }
         if (!TUILE_HAS(MORPH) && scene->instances[i].morph != 0) { return TUILE_ERROR_EFFECTS; }
         if (scene->instances[i].morph > (model->morph_positions ? TUILE_MORPH_ONE : 0)) { return TUILE_ERROR_ARGUMENT; }
+        if (!frame_materials_fit(&scene->instances[i])) { return TUILE_ERROR_ARGUMENT; }
         if (frame_counts_materials(t) && frame_first_use(scene, i)) { *materials += model->material_count; }
         *faces += model->face_count;
     }

@@ -356,6 +356,9 @@ void overlay_tile(tuile_t *t);
  * deferred shading and for TUILE_FACE_IDS it is the number in the instance's model. */
 TUILE_INLINE bool frame_counts_materials(const tuile_t *t) { return t->record_bytes == sizeof(record_t); }
 
+/* Are the materials that an instance brings itself within their ranges? Those of models were checked when they were opened. */
+bool frame_materials_fit(const tuile_instance_t *instance);
+
 /* A material of an instance, by its number in the model. */
 tuile_material_t frame_instance_material(const tuile_instance_t *instance, uint32_t material);
 

@@ -21,6 +21,17 @@ uint32_t frame_material_base(const tuile_scene_t *scene, unsigned instance) {
     return base;
 }
 
+bool frame_materials_fit(const tuile_instance_t *instance) {
+    for (uint32_t m = 0; instance->materials && m < instance->model->material_count; m++) {
+        const tuile_material_t *material = &instance->materials[m];
+        if (material->blend > TUILE_BLEND_MULTIPLY || material->shininess > MODEL_SHININESS_MAX ||
+            material->uv_bits > MODEL_UV_BITS_MAX) {
+            return false;
+        }
+    }
+    return true;
+}
+
 tuile_material_t frame_instance_material(const tuile_instance_t *instance, uint32_t material) {
     return instance->materials ? instance->materials[material] : tuile_model_material(instance->model, material);
 }
