@@ -287,7 +287,8 @@ typedef enum tuile_format {
 #define TUILE_FORMAT_COUNT 10
 
 /* What beside white directional light, flat or Gouraud, on opaque faces a renderer is laid out for: or-ed. Without SURFACES textures,
- * vertex colours, emission and highlights of models are left out and faces have the colours of their materials. */
+ * vertex colours, emission and highlights of models are left out and faces have the colours of their materials. Without LAYERS
+ * translucent faces are drawn as opaque ones. */
 typedef enum tuile_effects {
     TUILE_SURFACES = 1, /* textures, vertex colours, coloured and point lights, highlights, emission, fog */
     TUILE_LAYERS = 2,   /* translucent faces, lines, sprites, wireframes; brings SURFACES with it */
@@ -439,6 +440,9 @@ typedef struct tuile_config {
          ? TUILE_ALIGN64(TUILE_SAMPLE_BYTES(format, dither) * TUILE_SAMPLE_COUNT(tile_w, tile_h, samples)) \
          : (size_t)0)
 #define TUILE_NUMBER_BYTES(tile_w, tile_h, samples) TUILE_ALIGN64(2u * TUILE_SAMPLE_COUNT(tile_w, tile_h, samples))
+/* TUILE_LAYERS: a row of samples of the tile. */
+#define TUILE_LAYER_SAMPLE_BYTES 16u
+#define TUILE_LAYER_BYTES(tile_w, samples) TUILE_ALIGN64(TUILE_LAYER_SAMPLE_BYTES * (size_t)(tile_w) * (samples))
 #define TUILE_SURFACE_BYTES(cluster_vertices) (16u + 4u * (size_t)(cluster_vertices) + 2u * TUILE_CLIP_BYTES)
 /* The least block in which TUILE_ZBUFFER draws any scene whose clusters have at most cluster_vertices vertices and whose faces at
  * most four corners. Other methods have no depth of a tile and other things (tuile_init tells the size); so has TUILE_TREE a least
@@ -456,7 +460,8 @@ typedef struct tuile_config {
      TUILE_WORKING_BYTES(tile_w, tile_h, format, 1u << (aa), dither) +                                             \
      (TUILE_DEFERS(format, effects, dither)                                                                        \
           ? TUILE_NUMBER_BYTES(tile_w, tile_h, 1u << (aa)) + TUILE_SURFACE_BYTES(cluster_vertices)                 \
-          : (size_t)0))
+          : (size_t)0) +                                                                                           \
+     ((effects)&TUILE_LAYERS ? TUILE_LAYER_BYTES(tile_w, 1u << (aa)) : (size_t)0))
 
 /* What a frame with an instance whose morph is not 0 takes besides: to be added. vertices and faces: of the largest cluster of the
  * models that morph; `tuile mesh` makes clusters of at most TUILE_MORPH_FACES faces. */

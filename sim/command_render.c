@@ -9,6 +9,7 @@
 #include "options.h"
 #include "output.h"
 #include "render_format.h"
+#include "render_layer.h"
 #include "render_mesh.h"
 #include "render_overlay.h"
 #include "render_surface.h"
@@ -68,6 +69,7 @@ static void print_usage(FILE *file) {
     (void)fputs(render_surface_usage, file);
     (void)fputs(render_world_usage, file);
     (void)fputs(render_overlay_usage, file);
+    (void)fputs(render_layer_usage, file);
 }
 
 typedef struct render {
@@ -82,6 +84,7 @@ typedef struct render {
     render_surface_t surface;
     render_world_t world;
     render_overlay_t overlay;
+    render_layer_t layer;
     mesh_options_t mesh_options;
     view_options_t view_options;
 
@@ -201,9 +204,8 @@ static int parse(render_t *r, int count, char **arguments) {
             return -1;
         } else if (!render_format_option(&r->format, &options, argument) &&
                    !render_mesh_option(&r->mesh_options, &options, argument) &&
-                   !render_surface_option(&r->surface, &options, argument) &&
-                   !render_world_option(&r->world, &options, argument) &&
-                   !render_overlay_option(&r->overlay, &options, argument)) {
+                   !render_surface_option(&r->surface, &options, argument) && !render_world_option(&r->world, &options, argument) &&
+                   !render_overlay_option(&r->overlay, &options, argument) && !render_layer_option(&r->layer, &options, argument)) {
             options_unknown(&options);
         }
     }
@@ -286,6 +288,7 @@ static int set_up(render_t *r) {
 
     r->config.width = r->display.width;
     r->config.height = r->display.height;
+    render_layer_apply(&r->layer, &r->config);
     if (render_format_apply(&r->format, r->rotate, &r->config) != 0) { return EXIT_FAILURE; }
     if (render_overlay_apply(&r->overlay, &r->config) != 0) { return EXIT_FAILURE; }
     render_surface_apply(&r->surface, &r->sizes, &r->config);
@@ -460,7 +463,10 @@ static int draw_frame(render_t *r, unsigned frame) {
     sim_picture_t picture = {0}, glass = {0};
     char name[4096], hash[24] = "";
     view_frame(&r->view, frame);
-    if (render_world_frame(&r->world, &r->view, frame, &r->error) != 0) { return command_fail("%s", r->error.text); }
+    if (render_world_frame(&r->world, &r->view, frame, &r->error) != 0 ||
+        render_layer_frame(&r->layer, &r->view.scene, r->view.unit, &r->error) != 0) {
+        return command_fail("%s", r->error.text);
+    }
     const int result = (render_format_on_panel(&r->format) ? draw_panel : draw_decoded)(r, &picture, &glass);
     if (result > 0) { return command_fail("%s", r->error.text); }
     if (result) {
@@ -550,6 +556,7 @@ int command_render(int count, char **arguments) {
         free(r.block);
         free(r.bytes);
         render_world_free(&r.world);
+        render_layer_free(&r.layer);
     }
     render_overlay_free(&r.overlay);
     return code;

@@ -3,6 +3,8 @@
 
 #include "frame.h"
 
+#include "../layer/layer.h"
+
 #include "../features.h"
 
 /* Vertices that still fit below the records. */
@@ -115,6 +117,7 @@ int bin_instance_open(tuile_t *t, unsigned number) {
     }
     t->material_base = (uint16_t)(frame_counts_materials(t) ? frame_material_base(scene, number) : 0);
     t->sides = t->instance->two_sided ? SIDE_FRONT | SIDE_BACK : SIDE_FRONT;
+    if (frame_layers(t) && !layer_sift(t)) { return BIN_CULLED; }
     return FRAME_OK;
 }
 

@@ -366,7 +366,15 @@ static int bin_polygon_any(tuile_t *t, const frame_cluster_t *cluster, const uin
     return result;
 }
 
+/* Is a face of this material left out, where only translucent or only opaque ones are wanted? */
+static bool sifted_out(const tuile_t *t, uint8_t material) {
+    if (t->sift == SIFT_NONE || t->sift == SIFT_ALL) { return false; }
+    const bool translucent = t->translucent[material / 32] >> material % 32 & 1u;
+    return translucent != (t->sift == SIFT_TRANSLUCENT);
+}
+
 static int bin_polygon_face(tuile_t *t, const frame_cluster_t *cluster, const uint8_t *face, unsigned f) {
+    if (TUILE_HAS(LAYERS) && sifted_out(t, face[2])) { return FRAME_OK; }
     if (TUILE_LIKELY(!(face[1] & MODEL_FACE_CROSSING))) { return bin_polygon_any(t, cluster, face, f); }
     if (!(side_by_plane(t, cluster, face + 3, face[0], f) & t->sides)) {
         t->stats.faces_back++;
@@ -388,9 +396,29 @@ static TUILE_NOINLINE int bin_polygons(tuile_t *t, const frame_cluster_t *cluste
     return result;
 }
 
+/* Triangles first ... end - 1 that are not sifted out. */
+static TUILE_NOINLINE int bin_triangle_run(tuile_t *t, const frame_cluster_t *cluster, unsigned first, unsigned end,
+                                           bool backwards);
+
+static TUILE_NOINLINE int bin_sifted_triangles(tuile_t *t, const frame_cluster_t *cluster, unsigned first, unsigned end,
+                                               bool backwards) {
+    for (unsigned i = first; i < end; i++) {
+        const unsigned f = backwards ? end - 1 - (i - first) : i;
+        if (sifted_out(t, cluster->faces[4 * (size_t)f + 3])) { continue; }
+        const int result = bin_triangle_run(t, cluster, f, f + 1, false);
+        if (result != FRAME_OK) { return result; }
+    }
+    return FRAME_OK;
+}
+
+static bool cluster_is_sifted(const tuile_t *t, const frame_cluster_t *cluster) {
+    return TUILE_HAS(LAYERS) && TUILE_UNLIKELY(t->sift != SIFT_NONE) && cluster->bytes[CLUSTER_AT_KIND] == MODEL_CLUSTER_TRIANGLES;
+}
+
 int face_bin_all(tuile_t *t, const frame_cluster_t *cluster) {
     t->source = cluster->source;
     const unsigned count = model_u16(cluster->bytes + CLUSTER_AT_FACE_COUNT);
+    if (cluster_is_sifted(t, cluster)) { return bin_sifted_triangles(t, cluster, 0, count, false); }
     return cluster->bytes[CLUSTER_AT_KIND] != MODEL_CLUSTER_TRIANGLES ? bin_polygons(t, cluster, count)
            : cluster->any_outside                                     ? bin_outside_triangles(t, cluster, count)
                                                                       : bin_triangles(t, cluster, count);
@@ -438,6 +466,7 @@ static int bin_polygon_run(tuile_t *t, const frame_cluster_t *cluster, unsigned 
 
 int face_bin_run(tuile_t *t, const frame_cluster_t *cluster, unsigned first, unsigned end, bool backwards) {
     t->source = cluster->source;
+    if (cluster_is_sifted(t, cluster)) { return bin_sifted_triangles(t, cluster, first, end, backwards); }
     return cluster->bytes[CLUSTER_AT_KIND] != MODEL_CLUSTER_TRIANGLES ? bin_polygon_run(t, cluster, first, end, backwards)
                                                                       : bin_triangle_run(t, cluster, first, end, backwards);
 }

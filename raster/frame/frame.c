@@ -41,12 +41,20 @@ static const visibility_method_t *method_of(uint8_t number) {
     }
 }
 
+/* Layers want the depth of a tile, which the z-buffer has; c in pixels. */
+static size_t layer_depth_bytes(const tuile_config_t *c) {
+    if (!(c->effects & TUILE_LAYERS) || c->method == TUILE_ZBUFFER) { return 0; }
+    return TUILE_NUMBER_BYTES(c->tile_width, c->tile_height, 1u << c->aa);
+}
+
 /* What of a block grows with the tile, but for the method's own memory; c in pixels. */
 static size_t tile_bytes_of(const tuile_config_t *c) {
     const unsigned samples = 1u << c->aa;
     size_t bytes = c->buffers * TUILE_ALIGN64(TUILE_WIRE_BYTES(c->format, c->tile_width, c->tile_height));
     bytes += TUILE_WORKING_BYTES(c->tile_width, c->tile_height, c->format, samples, c->dither);
     if (c->effects) { bytes += TUILE_NUMBER_BYTES(c->tile_width, c->tile_height, samples); }
+    bytes += layer_depth_bytes(c);
+    if (c->effects & TUILE_LAYERS) { bytes += TUILE_LAYER_BYTES(c->tile_width, samples); }
     return bytes;
 }
 
@@ -70,16 +78,21 @@ static uint16_t default_tile_height(const tuile_config_t *given, size_t size_byt
     return (uint16_t)(rows > c.height ? c.height : rows);
 }
 
+static bool layers_refused(const tuile_config_t *c) {
+    const bool layers = c->effects & TUILE_LAYERS;
+    return (layers && !TUILE_HAS(LAYERS)) || (c->edges != TUILE_EDGES_NONE && (!layers || !TUILE_HAS(LINES)));
+}
+
 static bool config_complete(tuile_config_t *c, size_t size_bytes) {
     if (c->width == 0 || c->height == 0 || c->width > TUILE_WINDOW_MAX_PX || c->height > TUILE_WINDOW_MAX_PX || c->buffers > 2 ||
         c->format >= TUILE_FORMAT_COUNT || method_of(c->method) == NULL || c->shade > TUILE_GOURAUD || c->tie > TUILE_TIE_LAST ||
         c->tile_width > TUILE_WINDOW_MAX_PX || c->tile_height > TUILE_WINDOW_MAX_PX || c->cluster_vertices > 255 ||
         c->corners > 255 || c->row_first > c->height || c->row_end > c->height || (c->row_end != 0 && c->row_end < c->row_first) ||
         c->warnock > 31 || c->aa > TUILE_AA_4X4 || c->effects > 3 || c->edges > TUILE_EDGES_OUTLINE || c->texturing > 15 ||
-        c->width << c->aa > TUILE_SAMPLES_MAX || c->height << c->aa > TUILE_SAMPLES_MAX ||
-        (c->edges != TUILE_EDGES_NONE && !(c->effects & TUILE_LAYERS)) || (!TUILE_HAS(OVERLAY) && c->overlay) ||
-        !TUILE_HAS_FORMAT(c->format) || (!TUILE_HAS(RESOLVE) && TUILE_RESOLVES(c->format, 1u << c->aa, c->dither)) ||
-        (!TUILE_HAS(SAMPLES) && c->aa) || (!TUILE_HAS(SURFACES) && TUILE_DEFERS(c->format, c->effects, c->dither)) ||
+        c->width << c->aa > TUILE_SAMPLES_MAX || c->height << c->aa > TUILE_SAMPLES_MAX || layers_refused(c) ||
+        (!TUILE_HAS(OVERLAY) && c->overlay) || !TUILE_HAS_FORMAT(c->format) ||
+        (!TUILE_HAS(RESOLVE) && TUILE_RESOLVES(c->format, 1u << c->aa, c->dither)) || (!TUILE_HAS(SAMPLES) && c->aa) ||
+        (!TUILE_HAS(SURFACES) && TUILE_DEFERS(c->format, c->effects, c->dither)) ||
         (c->format == TUILE_FACE_IDS && (c->aa || c->dither || c->effects || c->overlay))) {
         return false;
     }
@@ -113,6 +126,18 @@ static void config_sample(tuile_config_t *c) {
     c->row_end = (uint16_t)(c->row_end << c->aa);
 }
 
+/* One row of samples at least; more may take an eighth of what the block has beyond the least. */
+static size_t layers_lay_out(tuile_t *t, uint8_t *at, size_t depth_bytes) {
+    const tuile_config_t *c = &t->config;
+    const size_t row = TUILE_LAYER_BYTES(t->given.tile_width, 1u << c->aa);
+    size_t rows = 1 + (t->stats.size_bytes - t->stats.least_bytes) / 8 / row;
+    if (rows > c->tile_height) { rows = c->tile_height; }
+    t->layer_depth = (uint16_t *)(void *)(depth_bytes ? at : (uint8_t *)t->tile_memory);
+    t->layer_samples = at + depth_bytes;
+    t->layer_rows = (uint16_t)rows;
+    return depth_bytes + rows * row;
+}
+
 int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, size_t size_bytes, size_t *wanted_bytes) {
     if (renderer == NULL || config == NULL) { return TUILE_ERROR_ARGUMENT; }
     tuile_config_t c = *config;
@@ -122,11 +147,14 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     const visibility_method_t *method = method_of(c.method);
     const size_t working_bytes = TUILE_WORKING_BYTES(c.tile_width, c.tile_height, c.format, 1u << c.aa, c.dither);
     const size_t number_bytes = c.effects ? TUILE_NUMBER_BYTES(c.tile_width, c.tile_height, 1u << c.aa) : 0;
+    const size_t layer_depth = layer_depth_bytes(&c);
     config_sample(&c);
+    if (c.edges != TUILE_EDGES_NONE && c.edges != TUILE_EDGES_OUTLINE) { c.shade = TUILE_FLAT; } /* whole faces, no fans */
     const size_t tile_bytes = TUILE_ALIGN64(method->tile_bytes ? method->tile_bytes(&c) : 0);
     const size_t least = TUILE_BLOCK_BYTES((size_t)given.height, (size_t)given.tile_width, (size_t)given.tile_height, c.format,
                                            (size_t)c.buffers, (size_t)c.cluster_vertices, c.effects, c.aa, c.dither) -
                          TUILE_ALIGN64(2u * (size_t)c.tile_width * c.tile_height) + tile_bytes + TUILE_CORNERS_BYTES(c.corners) +
+                         layer_depth +
                          /* the stack, the order of up to four instances, the tag of a ramp */
                          (c.method == TUILE_TREE ? TUILE_ALIGN8(4u * (size_t)c.tree_depth) + 8 + 8 : 0);
     if (wanted_bytes) { *wanted_bytes = least; }
@@ -154,6 +182,7 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     at += working_bytes;
     if (number_bytes) { t->numbers = (uint16_t *)(void *)at; }
     at += number_bytes;
+    if (c.effects & TUILE_LAYERS) { at += layers_lay_out(t, at, layer_depth); }
     t->buckets = (uint16_t *)(void *)at;
     at += TUILE_ALIGN8(2u * (size_t)t->tile_rows);
     t->arena = at;
@@ -172,8 +201,24 @@ const tuile_config_t *tuile_config(const tuile_t *t) { return &t->given; }
 
 /* ---- begin ---- */
 
+/* Lines and sprites. */
+static int check_layers(const tuile_t *t, const tuile_scene_t *scene) {
+    if ((scene->line_count != 0 && scene->lines == NULL) || (scene->sprite_count != 0 && scene->sprites == NULL)) {
+        return TUILE_ERROR_ARGUMENT;
+    }
+    if ((scene->line_count | scene->sprite_count) != 0 && !frame_layers(t)) { return TUILE_ERROR_EFFECTS; }
+    if (scene->line_count != 0 && !TUILE_HAS(LINES)) { return TUILE_ERROR_EFFECTS; }
+    for (unsigned i = 0; i < scene->sprite_count; i++) {
+        const tuile_sprite_t *sprite = &scene->sprites[i];
+        if (sprite->width < 0 || sprite->height < 0 || sprite->blend > TUILE_BLEND_MULTIPLY) { return TUILE_ERROR_ARGUMENT; }
+    }
+    return TUILE_OK;
+}
+
 static int check_scene(const tuile_t *t, const tuile_scene_t *scene, uint32_t *materials, uint32_t *faces) {
     *materials = *faces = 0;
+    const int error = check_layers(t, scene);
+    if (error) { return error; }
     if (scene->instance_count != 0 && scene->instances == NULL) { return TUILE_ERROR_ARGUMENT; }
     if (scene->light_count > TRANSFORM_LIGHTS_MAX || (scene->light_count != 0 && scene->lights == NULL)) {
         return TUILE_ERROR_ARGUMENT;
@@ -236,8 +281,8 @@ int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     }
     uint8_t *start = t->arena + TUILE_ALIGN8(ramps * ramp);
     t->keep = t->immediate_only = false;
-    t->textured = t->numbers != NULL && t->config.method == TUILE_ZBUFFER && t->config.tie == TUILE_TIE_FIRST &&
-                  t->pixel_kind <= PIXEL_RGB565_LE && scene->fog.kind == TUILE_FOG_NONE;
+    t->textured = t->numbers != NULL && t->config.edges != TUILE_EDGES_HIDDEN && t->config.method == TUILE_ZBUFFER &&
+                  t->config.tie == TUILE_TIE_FIRST && t->pixel_kind <= PIXEL_RGB565_LE && scene->fog.kind == TUILE_FOG_NONE;
     if (t->method->begin && (error = t->method->begin(t, &start)) != TUILE_OK) { return error; }
     if (TUILE_HAS(MORPH) && (error = frame_morph_begin(t, &start)) != TUILE_OK) { return error; }
     t->vertices = (vertex_t *)(void *)start;

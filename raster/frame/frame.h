@@ -20,6 +20,7 @@
 #include "../geometry/model.h"
 #include "../geometry/transform.h"
 #include "../geometry/vertex.h"
+#include "../features.h"
 #include "../pixel.h"
 #include "../surface/textured.h"
 #include "../tuile.h"
@@ -156,6 +157,15 @@ typedef struct tuile {
     uint16_t ramp_count;
     uint32_t background;   /* a sample */
     tuile_camera_t camera; /* the scene's, in samples */
+    /* Layers (layer/layer.h). */
+    uint16_t *layer_depth; /* of the opaque faces of the tile */
+    void *layer_samples;   /* layer_sample_t: layer_rows of the tile; NULL: no layers */
+    struct layer_band *layer_band;
+    uint32_t layer_number;   /* faces that come one by one */
+    uint32_t translucent[8]; /* materials of the instance, as bits */
+    uint16_t layer_rows;
+    uint8_t layer_part; /* LAYER_PART_...: which faces are binned */
+    uint8_t sift;       /* SIFT_...: the same for this instance */
     /* Display trees. */
     uint32_t *tree_stack;     /* config.tree_depth */
     uint16_t *instance_order; /* visibility/arrange.h */
@@ -246,6 +256,13 @@ typedef struct frame_cluster {
 
 enum { BIN_CULLED = 2 };
 enum { SIDE_FRONT = 1, SIDE_BACK = 2 };
+
+enum { LAYER_PART_OPAQUE = 0, LAYER_PART_FACES = 1, LAYER_PART_EDGES = 2 };
+
+/* NONE: no face is looked at for that; ALL: the same, but sides are told by t->sides alone. */
+enum { SIFT_NONE = 0, SIFT_OPAQUE = 1, SIFT_TRANSLUCENT = 2, SIFT_ALL = 3 };
+
+TUILE_INLINE bool frame_layers(const tuile_t *t) { return TUILE_HAS(LAYERS) && t->layer_samples != NULL; }
 
 /* Runs all clusters over the region of the pass. In an immediate pass each face is handed to t->draw_now at once, which never
  * overflows unless a single cluster does. */

@@ -9,6 +9,8 @@
  */
 #include "frame.h"
 
+#include "../layer/layer.h"
+
 /* column: of a narrow pass. */
 static void pass_set(tuile_t *t, uint32_t first, uint32_t end, uint32_t column, bool narrow) {
     const tuile_config_t *c = &t->config;
@@ -161,6 +163,7 @@ static int draw_immediate(tuile_t *t, uint32_t row, uint32_t column) {
     const int result = t->method->gather(t);
     t->stats.tiles_narrow++;
     t->stats.peak_bytes = t->stats.size_bytes;
+    if (result == FRAME_OK && frame_layers(t)) { return layer_tile(t); }
     return result > 0 ? TUILE_ERROR_MEMORY : result;
 }
 
@@ -182,7 +185,7 @@ int pass_draw(tuile_t *t, uint32_t row, uint32_t column) {
             pass_measure(t, (size_t)(t->stream_end - t->stream));
             t->stats.tiles_narrow += t->narrow;
             if (result == 0 && frame_deferred(t)) { shade_tile(t); }
-            return result;
+            return result == 0 && frame_layers(t) ? layer_tile(t) : result;
         }
         t->shrunk = true;
         if (!pass_shrink(t)) { return pass_want(t, row, column); }

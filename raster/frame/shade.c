@@ -9,10 +9,13 @@
  */
 #include "../tune.h"
 
-#include "frame.h"
+#include "shade.h"
 
+#include "../features.h"
 #include "../memory.h"
-#include "../surface/surface.h"
+
+/* Layers want the depth of what is seen; the z-buffer has it. */
+static bool shade_keeps_depth(const tuile_t *t) { return frame_layers(t) && t->layer_depth != t->tile_memory; }
 
 void shade_clear(tuile_t *t) {
     const size_t samples = (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top);
@@ -20,6 +23,7 @@ void shade_clear(tuile_t *t) {
     const bool wide = pixel_bytes((pixel_kind_t)t->pixel_kind) == 4;
     frame_fill_words(t->numbers, 0, samples * sizeof(uint16_t));
     t->numbered = !t->textured;
+    if (shade_keeps_depth(t)) { frame_fill_words(t->layer_depth, 0, samples * sizeof(uint16_t)); }
     frame_fill_words(to, wide ? t->background : t->background * 0x10001u, samples * (wide ? 4 : 2));
 }
 
@@ -113,11 +117,35 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
     face->texturing = t->config.texturing;
 }
 
+void shade_surface(const tuile_t *t, const record_t *record, surface_t *surface, pixel_kind_t kind) {
+    surface_face_t face;
+    face_open(t, record, &face);
+    surface_make(surface, &face, kind);
+}
+
+bool shade_depth(const tuile_t *t, const record_t *record, depth_plane_t *depth) {
+    const record_t whole = frame_record_face(t, record);
+    if (frame_record_is_triangle(&whole)) {
+        const vertex_t *v0 = &t->vertices[whole.v0];
+        triangle_planes(v0, v0 + whole.d1, v0 + whole.d2, depth, NULL);
+        return true;
+    }
+    const polygon_ring_t ring = frame_record_ring(t, &whole);
+    return polygon_plane(&ring, depth);
+}
+
 /* ---- numbers to samples ---- */
 
-/* All samples of the face with this number from row `top` of the window on, in columns left ... right - 1. */
-static void shade_box(tuile_t *t, const surface_t *surface, uint16_t value, int32_t left, int32_t top, int32_t right,
-                      int32_t bottom) {
+static void depth_run(tuile_t *t, const depth_plane_t *depth, int32_t x, int32_t y, int32_t count, size_t at) {
+    for (int32_t i = 0; i < count; i++) {
+        t->layer_depth[at + (size_t)i] = depth_at(depth, x + i, y);
+    }
+}
+
+/* All samples of the face with this number from row `top` of the window on, in columns left ... right - 1. depth: NULL, or the
+ * plane of the depth that is wanted too. */
+static void shade_runs(tuile_t *t, const surface_t *surface, const depth_plane_t *depth, uint16_t value, int32_t left, int32_t top,
+                       int32_t right, int32_t bottom) {
     const int32_t stride = t->tile.stride_px;
     const size_t bytes = pixel_bytes((pixel_kind_t)t->pixel_kind);
     uint8_t *tile = t->working ? t->working : t->colours[t->next_buffer];
@@ -134,13 +162,16 @@ static void shade_box(tuile_t *t, const surface_t *surface, uint16_t value, int3
                 *at++ = 0;
             }
             const int32_t x = t->tile.left + (int32_t)(first - row);
+            if (TUILE_HAS(LAYERS) && depth != NULL) {
+                depth_run(t, depth, x, y, (int32_t)(at - first), (size_t)(first - t->numbers));
+            }
+            if (TUILE_HAS(LINES) && t->config.edges == TUILE_EDGES_HIDDEN) { continue; }
             surface->fill(surface, x, y, (int32_t)(at - first), tile + (size_t)(first - t->numbers) * bytes);
         }
     }
 }
 
-/* The bounding box of a record's face, within the tile. */
-static void record_box(const tuile_t *t, const record_t *record, int32_t *left, int32_t *top, int32_t *right, int32_t *bottom) {
+void shade_box(const tuile_t *t, const record_t *record, int32_t *left, int32_t *top, int32_t *right, int32_t *bottom) {
     frame_record_rows(t, record, top, bottom);
     if (frame_record_is_piece(record)) {
         const face_bounds_t *bounds = &frame_record_piece(t, record)->bounds;
@@ -202,14 +233,14 @@ typedef uint64_t numbers_t;
 static TUILE_NOINLINE void shade_record(tuile_t *t, uint32_t number, int32_t from) {
     const record_t *record = frame_record(t, number);
     int32_t left, top, right, bottom;
-    surface_face_t face;
     surface_t surface;
-    record_box(t, record, &left, &top, &right, &bottom);
-    face_open(t, record, &face);
-    surface_make(&surface, &face, (pixel_kind_t)t->pixel_kind);
+    depth_plane_t depth;
+    shade_box(t, record, &left, &top, &right, &bottom);
+    shade_surface(t, record, &surface, (pixel_kind_t)t->pixel_kind);
+    const bool with_depth = shade_keeps_depth(t) && shade_depth(t, record, &depth);
     top = top > from ? top : from;
     if (t->textured && !t->immediate) { clear_hidden(t, record, (uint16_t)(number + 1), left, top, right, bottom); }
-    shade_box(t, &surface, (uint16_t)(number + 1), left, top, right, bottom);
+    shade_runs(t, &surface, with_depth ? &depth : NULL, (uint16_t)(number + 1), left, top, right, bottom);
 }
 
 void shade_tile(tuile_t *t) {

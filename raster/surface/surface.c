@@ -51,6 +51,15 @@ void surface_fill_stages(const surface_t *surface, int32_t x, int32_t y, int32_t
     }
 }
 
+void surface_run(const surface_t *surface, int32_t x, int32_t y, int32_t count, uint32_t *argb) {
+    for (int32_t i = 0; surface->stage[0] == NULL && i < count; i++) {
+        argb[i] = surface->argb;
+    }
+    for (unsigned i = 0; i < SURFACE_STAGES && surface->stage[i] != NULL; i++) {
+        surface->stage[i](surface, x, y, count, argb);
+    }
+}
+
 /* ---- stages ---- */
 
 static void stage_same(const surface_t *surface, int32_t x, int32_t y, int32_t count, uint32_t *argb) {
@@ -166,6 +175,8 @@ void surface_make(surface_t *surface, const surface_face_t *face, pixel_kind_t k
     surface->fill = surface_fill_stages;
     if (!textured && alike >= 0) {
         surface->sample = pixel_lit(kind, colour, (uint32_t)alike);
+        surface->argb = (uint32_t)face->material.alpha << 24 | rgb_lit(colour, (uint32_t)alike);
+        *stage = NULL;
         surface->fill = surface_fill_same;
         return;
     }

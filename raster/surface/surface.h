@@ -70,6 +70,9 @@ void surface_make(surface_t *surface, const surface_face_t *face, pixel_kind_t k
 /* Fills the run with one value; any number of samples. */
 void surface_fill_same(const surface_t *surface, int32_t x, int32_t y, int32_t count, void *samples);
 
+/* The colours of a run as 0xaarrggbb, count <= SURFACE_RUN. The surface was made for PIXEL_RGB888, which no fast way leads to. */
+void surface_run(const surface_t *surface, int32_t x, int32_t y, int32_t count, uint32_t *argb);
+
 /* Fills a run by its stages. */
 void surface_fill_stages(const surface_t *surface, int32_t x, int32_t y, int32_t count, void *samples);
 
