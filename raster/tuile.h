@@ -440,9 +440,11 @@ typedef struct tuile_config {
          ? TUILE_ALIGN64(TUILE_SAMPLE_BYTES(format, dither) * TUILE_SAMPLE_COUNT(tile_w, tile_h, samples)) \
          : (size_t)0)
 #define TUILE_NUMBER_BYTES(tile_w, tile_h, samples) TUILE_ALIGN64(2u * TUILE_SAMPLE_COUNT(tile_w, tile_h, samples))
-/* TUILE_LAYERS: a row of samples of the tile. */
+/* TUILE_LAYERS: which materials are translucent, and a row of samples of the tile. */
 #define TUILE_LAYER_SAMPLE_BYTES 16u
-#define TUILE_LAYER_BYTES(tile_w, samples) TUILE_ALIGN64(TUILE_LAYER_SAMPLE_BYTES * (size_t)(tile_w) * (samples))
+#define TUILE_LAYER_HEAD_BYTES 64u
+#define TUILE_LAYER_BYTES(tile_w, samples) \
+    (TUILE_LAYER_HEAD_BYTES + TUILE_ALIGN64(TUILE_LAYER_SAMPLE_BYTES * (size_t)(tile_w) * (samples)))
 #define TUILE_SURFACE_BYTES(cluster_vertices) (16u + 4u * (size_t)(cluster_vertices) + 2u * TUILE_CLIP_BYTES)
 /* The least block in which TUILE_ZBUFFER draws any scene whose clusters have at most cluster_vertices vertices and whose faces at
  * most four corners. Other methods have no depth of a tile and other things (tuile_init tells the size); so has TUILE_TREE a least

@@ -129,13 +129,14 @@ static void config_sample(tuile_config_t *c) {
 /* One row of samples at least; more may take an eighth of what the block has beyond the least. */
 static size_t layers_lay_out(tuile_t *t, uint8_t *at, size_t depth_bytes) {
     const tuile_config_t *c = &t->config;
-    const size_t row = TUILE_LAYER_BYTES(t->given.tile_width, 1u << c->aa);
+    const size_t row = TUILE_LAYER_BYTES(t->given.tile_width, 1u << c->aa) - TUILE_LAYER_HEAD_BYTES;
     size_t rows = 1 + (t->stats.size_bytes - t->stats.least_bytes) / 8 / row;
     if (rows > c->tile_height) { rows = c->tile_height; }
     t->layer_depth = (uint16_t *)(void *)(depth_bytes ? at : (uint8_t *)t->tile_memory);
-    t->layer_samples = at + depth_bytes;
+    t->translucent = (uint32_t *)(void *)(at + depth_bytes);
+    t->layer_samples = at + depth_bytes + TUILE_LAYER_HEAD_BYTES;
     t->layer_rows = (uint16_t)rows;
-    return depth_bytes + rows * row;
+    return depth_bytes + TUILE_LAYER_HEAD_BYTES + rows * row;
 }
 
 int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, size_t size_bytes, size_t *wanted_bytes) {

@@ -161,8 +161,8 @@ typedef struct tuile {
     uint16_t *layer_depth; /* of the opaque faces of the tile */
     void *layer_samples;   /* layer_sample_t: layer_rows of the tile; NULL: no layers */
     struct layer_band *layer_band;
-    uint32_t layer_number;   /* faces that come one by one */
-    uint32_t translucent[8]; /* materials of the instance, as bits */
+    uint32_t layer_number; /* faces that come one by one */
+    uint32_t *translucent; /* materials of the instance, as 256 bits */
     uint16_t layer_rows;
     uint8_t layer_part; /* LAYER_PART_...: which faces are binned */
     uint8_t sift;       /* SIFT_...: the same for this instance */

@@ -44,7 +44,7 @@ bool layer_sift(tuile_t *t) {
 
     const bool all = colours_translucent(t->instance->model);
     uint32_t translucent = 0;
-    memset(t->translucent, 0, sizeof t->translucent);
+    memset(t->translucent, 0, 256 / 8);
     for (uint32_t i = 0; i < count && i < 256; i++) {
         if (all || material_translucent(t, i)) {
             t->translucent[i / 32] |= 1u << i % 32;
