@@ -231,6 +231,9 @@ size: $(CORE_OBJ) ## code size of each part, and that no part has data of its ow
 size-arm: $(BUILD)/need/arm ## code size of a renderer of each method on Cortex-M0+ and M3
 	@sh tests/size_arm.sh $(BUILD)/arm arm-none-eabi- -std=c11 -ffreestanding $(WARN)
 
+size-features: $(BUILD)/need/arm ## code size of each feature on Cortex-M3
+	@sh tests/size_features.sh $(BUILD)/arm arm-none-eabi- -std=c11 -ffreestanding $(WARN)
+
 FORMATTED := $(shell git ls-files '*.c' '*.h' 2>/dev/null)
 format: $(BUILD)/need/format ## clang-format all sources
 	clang-format -i $(FORMATTED)

@@ -230,6 +230,9 @@ static int check_scene(const tuile_t *t, const tuile_scene_t *scene, uint32_t *m
         if (model->cluster_vertices_max > t->config.cluster_vertices || model->corners_max > t->config.corners) {
             return TUILE_ERROR_LIMITS;
         }
+        if (!TUILE_HAS(TEXTURES) && frame_deferred(t) && model->texture_count > 0 && !(t->config.texturing & TUILE_TEXTURE_OFF)) {
+            return TUILE_ERROR_EFFECTS;
+        }
         if (!TUILE_HAS(MORPH) && scene->instances[i].morph != 0) { return TUILE_ERROR_EFFECTS; }
         if (scene->instances[i].morph > (model->morph_positions ? TUILE_MORPH_ONE : 0)) { return TUILE_ERROR_ARGUMENT; }
         if (!frame_materials_fit(&scene->instances[i])) { return TUILE_ERROR_ARGUMENT; }

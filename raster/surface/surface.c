@@ -2,6 +2,7 @@
 
 #include "surface.h"
 
+#include "../features.h"
 #include "../fill/gradient.h"
 
 /* ---- into the tile ---- */
@@ -166,7 +167,7 @@ static uint32_t rgb_lit(const uint8_t colour[3], uint32_t light) { return pixel_
 
 void surface_make(surface_t *surface, const surface_face_t *face, pixel_kind_t kind) {
     static const uint8_t white[3] = {255, 255, 255};
-    const bool textured = face->material.texture != TUILE_NO_TEXTURE;
+    const bool textured = TUILE_HAS(TEXTURES) && face->material.texture != TUILE_NO_TEXTURE && !(face->texturing & TUILE_TEXTURE_OFF);
     const uint8_t *colour = textured && face->material.flags & TUILE_MATERIAL_REPLACED ? white : face->material.colour;
     const int32_t alike = light_alike(face);
     surface_stage_fn *stage = surface->stage;
