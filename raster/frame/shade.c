@@ -102,7 +102,7 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
     } else {
         face->material.texture = TUILE_NO_TEXTURE;
     }
-    if (instance->model->colours != NULL && (face->material.flags & TUILE_MATERIAL_VERTEX_COLOURS)) {
+    if (TUILE_HAS(LIGHTS) && instance->model->colours != NULL && (face->material.flags & TUILE_MATERIAL_VERTEX_COLOURS)) {
         face->material.colour[0] = face->material.colour[1] = face->material.colour[2] = 255;
     }
     face->coloured = source->colours != 0 || source->is_coloured;
