@@ -200,7 +200,7 @@ typedef struct font_heads {
 
 static int parse_font_head(const reader_t *reader, font_source_t *source, font_heads_t *heads) {
     const char *rest;
-    long value;
+    long value = 0;
     if ((rest = after(reader, "FONTBOUNDINGBOX")) != NULL) {
         return numbers(reader, rest, "FONTBOUNDINGBOX", heads->box, 4, 4, -32768, 32767);
     }

@@ -29,7 +29,7 @@ void overlay_run(const tuile_canvas_t *canvas, const overlay_paint_t *paint, int
 
 /* ---- soft edges: lengths in 1/32 sample, below 2^25 ---- */
 
-#define SOFT_RANGE OVERLAY_RANGE
+#define SOFT_RANGE TUILE_OVERLAY_RANGE
 
 /* What of the tile is not clipped, in samples; false: nothing. */
 bool overlay_samples(const tuile_canvas_t *canvas, tuile_box_t *area);

@@ -1,4 +1,4 @@
-/* What is drawn over the faces: text, gauges, images (issue of the overlay callback, config.overlay).
+/* What is drawn over the faces: text, gauges, images.
  *
  * The renderer calls config.overlay(context, canvas) for each tile when its faces are drawn, and the callback draws the whole
  * overlay with the functions below, each time: everything is cut to the tile, and where nothing of it lies in the tile it costs a
@@ -6,7 +6,7 @@
  * all tiles of a frame.
  *
  * Coordinates are the window's: `int32_t` in whole pixels, `q28_4_t` in 1/16 pixel, where pixel (i, j) has its centre at
- * (16 i + 8, 16 j + 8). Any value is allowed; 1/16 pixels are held to +-OVERLAY_RANGE, ends of lines to +-2^29 pixels.
+ * (16 i + 8, 16 j + 8). Any value is allowed; 1/16 pixels are held to +-TUILE_OVERLAY_RANGE, ends of lines to +-2^29 pixels.
  * Angles begin to the right and grow clockwise as seen: (cos, sin) with y down.
  * Colours are 0xaarrggbb; alpha 255 is opaque, 0 draws nothing.
  *
@@ -23,7 +23,7 @@
 #define TUILE_COLOUR(red, green, blue) TUILE_ARGB(255, red, green, blue)
 #define TUILE_PX(x) ((q28_4_t)((x)*16)) /* whole pixels in 1/16; the centre of pixel i is TUILE_PX(i) + 8 */
 
-#define OVERLAY_RANGE (1 << 22) /* 1/16 pixels */
+#define TUILE_OVERLAY_RANGE (1 << 22) /* 1/16 pixels */
 
 /* Pixels left ... right - 1, top ... bottom - 1; none where right <= left or bottom <= top. */
 typedef struct tuile_box {

@@ -53,7 +53,7 @@ static void ring_put(soft_pen_t *pen, const ring_t *ring, int32_t dy, int32_t x,
     if (end > pen->area.right) { end = pen->area.right; }
     for (; x < end; x++) {
         const unsigned part = wedge_coverage(ring->wedge, 32 * x + 16 - ring->x, dy);
-        soft_put(pen, x, x + 1, (coverage * part + COVERAGE_FULL / 2) / COVERAGE_FULL);
+        if (part > 0) { soft_put(pen, x, x + 1, (coverage * part + COVERAGE_FULL / 2) / COVERAGE_FULL); }
     }
 }
 

@@ -51,10 +51,11 @@ static unsigned stroke_coverage(const stroke_t *s, int64_t px, int64_t py, bool 
 static soft_span_t stroke_span(const stroke_t *s, int32_t py) {
     const int32_t reach = s->radius + 16;
     int64_t low = (s->d[0] < 0 ? s->d[0] : 0) - reach, high = (s->d[0] > 0 ? s->d[0] : 0) + reach;
-    if (s->d[1] != 0) {
-        const int64_t centre = (int64_t)s->d[0] * py, half = reach * (s->length16 / 16 + 1), dy = s->d[1];
-        const int64_t from = dy > 0 ? fixed_floor_div64(centre - half, dy) : fixed_floor_div64(-centre - half, -dy);
-        const int64_t to = dy > 0 ? fixed_floor_div64(centre + half, dy) + 1 : fixed_floor_div64(-centre + half, -dy) + 1;
+    int64_t centre = (int64_t)s->d[0] * py, dy = s->d[1];
+    if (dy < 0) { centre = -centre, dy = -dy; }
+    if (dy > 0) {
+        const int64_t half = reach * (s->length16 / 16 + 1);
+        const int64_t from = fixed_floor_div64(centre - half, dy), to = fixed_floor_div64(centre + half, dy) + 1;
         low = from > low ? from : low;
         high = to < high ? to : high;
     }
