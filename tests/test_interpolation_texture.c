@@ -140,12 +140,17 @@ static double corner_at(random_source_t *random, double range) {
     return random_one_in(random, 3) ? random_real(random, -range, range) : random_real(random, -range, range) / 16;
 }
 
-/* Distances of 1 ... 100, so up to 100 to 1 in a face; in the window, from slivers to faces that fill it. */
-static void corner_before(random_source_t *random, double spread, double at[3]) {
-    const double w = 1.001 * exp(random_real(random, 0, log(100)));
-    at[0] = (random_real(random, -0.79, 0.79) * spread) * w;
-    at[1] = (random_real(random, -0.59, 0.59) * spread) * w;
+/* In the window, from slivers to faces that fill it. */
+static void corner_before(random_source_t *random, double spread, double w, double at[3]) {
+    at[0] = random_real(random, -0.79, 0.79) * spread * w;
+    at[1] = random_real(random, -0.59, 0.59) * spread * w;
     at[2] = -w;
+}
+
+/* 1 ... 100, so up to 100 to 1 in a face; or so near to `first` that a face `range` texels across is just or not quite affine. */
+static double distance(random_source_t *random, bool alike, double first, double range) {
+    if (alike) { return first * (1 + random_real(random, 0, 4 / range)); }
+    return 1.001 * exp(random_real(random, 0, log(100)));
 }
 
 static void texels_of_whole_faces_are_within_half_a_texel(void **state) {
@@ -157,8 +162,9 @@ static void texels_of_whole_faces_are_within_half_a_texel(void **state) {
         const uint8_t bits = (uint8_t)random_between(&random, 0, 8);
         const double spread = round % 2 ? 1 : 0.1, most = 32767.0 / (1 << bits),
                      range = fmin(most, 16 << random_between(&random, 0, 11));
+        const double first = distance(&random, false, 0, 0) * (round % 4 == 1 ? 0.9 : 1) + 0.11;
         for (int i = 0; i < 3; i++) {
-            corner_before(&random, spread, at[i]);
+            corner_before(&random, spread, distance(&random, round % 4 == 1, first, range), at[i]);
             if (round % 5 == 0 && i == 2) { /* a sliver */
                 for (int k = 0; k < 3; k++) {
                     at[2][k] = (at[0][k] + at[1][k]) / 2 + (k < 2 ? random_real(&random, -0.05, 0.05) : 0);
