@@ -244,9 +244,10 @@ typedef struct frame_cluster {
     const uint8_t *faces;
     const int16_t *positions;
     const int8_t *fractions;     /* NULL: none */
-    const int8_t *normals;       /* of its vertices, whatever the shading */
+    const int8_t *normals;       /* of its vertices; flat shading between key frames leaves those of the first */
     const int8_t *face_normals;  /* flat shading, else NULL */
-    const int8_t *plane_normals; /* of its faces, whatever the shading */
+    const int8_t *plane_normals; /* of its faces, whatever the shading; between key frames those of triangles, which want none, are
+                                    the first ones */
     vertex_t *vertices;
     bool any_outside;    /* some vertex may need clipping */
     uint32_t first_face; /* id - 1 of its first face */

@@ -45,11 +45,16 @@ void frame_morph_cluster(tuile_t *t, frame_cluster_t *cluster) {
     int8_t *normals = fractions + 3 * (size_t)t->morph_vertices, *face_normals = normals + 3 * (size_t)t->morph_vertices;
     morph_positions(cluster->positions, (const int16_t *)(const void *)model->morph_positions + 3 * first_vertex,
                     cluster->fractions, vertices, morph, positions, fractions);
-    morph_normals(cluster->normals, (const int8_t *)model->morph_normals + 3 * first_vertex, vertices, morph, normals);
-    morph_normals(cluster->plane_normals, (const int8_t *)model->morph_face_normals + 3 * first_face, faces, morph, face_normals);
     cluster->positions = positions;
     cluster->fractions = fractions;
-    cluster->normals = normals;
-    cluster->plane_normals = face_normals;
-    if (cluster->face_normals) { cluster->face_normals = face_normals; }
+    if (t->config.shade != TUILE_FLAT) {
+        morph_normals(cluster->normals, (const int8_t *)model->morph_normals + 3 * first_vertex, vertices, morph, normals);
+        cluster->normals = normals;
+    }
+    if (cluster->face_normals || cluster->bytes[CLUSTER_AT_KIND] != MODEL_CLUSTER_TRIANGLES) {
+        morph_normals(cluster->plane_normals, (const int8_t *)model->morph_face_normals + 3 * first_face, faces, morph,
+                      face_normals);
+        cluster->plane_normals = face_normals;
+        if (cluster->face_normals) { cluster->face_normals = face_normals; }
+    }
 }

@@ -12,6 +12,16 @@ void morph_positions(const int16_t *a, const int16_t *b, const int8_t *fractions
     }
 }
 
+/* floor(sqrt(square)) for square <= 3 * 2^22, by Newton's steps from above: four or five for normals that are not opposite. */
+static int32_t root(int32_t square) {
+    int32_t length = 3548, next = (length + square / length) / 2;
+    while (next < length && next > 0) {
+        length = next;
+        next = (length + square / length) / 2;
+    }
+    return square > 0 ? length : 0;
+}
+
 static void morph_normal(const int8_t *a, const int8_t *b, uint16_t morph, int8_t *out) {
     int32_t v[3], squares = 0;
     for (unsigned i = 0; i < 3; i++) {
@@ -19,7 +29,7 @@ static void morph_normal(const int8_t *a, const int8_t *b, uint16_t morph, int8_
         v[i] = (sum + 1024) >> 11;                                                             /* 1/16: |v| <= 2048 */
         squares += v[i] * v[i];
     }
-    const int32_t length = (int32_t)fixed_sqrt64((uint64_t)squares);
+    const int32_t length = root(squares);
     for (unsigned i = 0; i < 3; i++) {
         const int32_t unit = length ? fixed_floor_div(254 * v[i] + length, 2 * length) : 0;
         out[i] = (int8_t)(unit > 127 ? 127 : unit < -127 ? -127 : unit); /* the root was rounded down */
