@@ -168,6 +168,28 @@ static void text_anywhere_is_the_same_in_any_tiles(void **state) {
     }
 }
 
+/* Lines of 2 dots; "a" is a column of 3 dots that ends 4 above the line, "b" one that begins 4 below it. */
+static void glyphs_may_reach_out_of_their_lines(void **state) {
+    static const char text[] = "STARTFONT 2.1\nFONT_ASCENT 2\nFONT_DESCENT 0\n"
+                               "STARTCHAR a\nENCODING 97\nDWIDTH 2 0\nBBX 1 3 0 6\nBITMAP\n80\n80\n80\nENDCHAR\n"
+                               "STARTCHAR b\nENCODING 98\nDWIDTH 2 0\nBBX 1 3 0 -7\nBITMAP\n80\n80\n80\nENDCHAR\nENDFONT\n";
+    static const said_t said = {"ab", 0, 7, {.colour = WHITE}};
+    static const char *const rows[] = {"#...", "#...", "#...", "....", "....", "....", "....", "....",
+                                       "....", "....", "....", "....", "....", "..#.", "..#.", "..#."};
+    const tuile_font_t kept = font;
+    font_source_t source;
+    uint8_t *bytes;
+    size_t size;
+    (void)state;
+    assert_int_equal(font_bdf_parse(&source, text, sizeof text - 1, "tall", NULL), 0);
+    assert_int_equal(font_compile(&source, NULL, 0, &bytes, &size, NULL, NULL), 0);
+    font_source_free(&source);
+    assert_int_equal(tuile_font_open(&font, bytes, size), 0);
+    see(&said, 4, 16, rows);
+    font = kept;
+    free(bytes);
+}
+
 /* ---- numbers ---- */
 
 static void numbers_are_written_with_their_point(void **state) {
@@ -411,6 +433,7 @@ int main(void) {
         cmocka_unit_test(a_character_without_a_glyph_is_a_box_and_counted_once),
         cmocka_unit_test(text_is_as_wide_as_its_widest_line),
         cmocka_unit_test(text_anywhere_is_the_same_in_any_tiles),
+        cmocka_unit_test(glyphs_may_reach_out_of_their_lines),
         cmocka_unit_test(numbers_are_written_with_their_point),
         cmocka_unit_test(frames_a_second_follow_slowly),
         cmocka_unit_test(the_counter_says_frames_a_second),

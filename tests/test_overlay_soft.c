@@ -64,6 +64,20 @@ static void discs_are_as_soft_as_distances_say(void **state) {
     }
 }
 
+/* Smaller than a sample, anywhere in it. */
+static void the_smallest_discs_are_as_soft_as_distances_say(void **state) {
+    (void)state;
+    for (int32_t i = 0; i < 16 * 16 * 20; i++) {
+        const numbers_t v = {{64 + i % 16, 64 + i / 16 % 16, 1 + i / 256}};
+        window_open(&window, 9, 9);
+        window_draw(&window, 9, 9, draw_disc, &v);
+        for (int32_t k = 0; k < 81; k++) {
+            const long double dx = k % 9 + 0.5L - v.n[0] / 16.0L, dy = k / 9 + 0.5L - v.n[1] / 16.0L;
+            check_sample(k % 9, k / 9, v.n[2] / 16.0L - hypotl(dx, dy), NEARLY);
+        }
+    }
+}
+
 static void draw_stroke(const void *context, tuile_canvas_t *canvas) {
     const numbers_t *v = context;
     tuile_draw_stroke(canvas, v->n[0], v->n[1], v->n[2], v->n[3], v->n[4], WHITE);
@@ -218,6 +232,7 @@ static void arcs_make_up_a_ring(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(discs_are_as_soft_as_distances_say),
+        cmocka_unit_test(the_smallest_discs_are_as_soft_as_distances_say),
         cmocka_unit_test(strokes_are_as_soft_as_distances_say),
         cmocka_unit_test(edges_of_slices_are_as_soft_as_distances_say),
         cmocka_unit_test(rings_make_up_a_disc),
