@@ -260,6 +260,14 @@ static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t 
     return result ? command_fail("%s", tuile_error_text(result)) : 0;
 }
 
+static bool has_translucent(const render_t *r) {
+    bool found = render_layer_translucent(&r->model, r->surface.plain);
+    for (unsigned i = 0; i < r->world.model_count; i++) {
+        found = found || render_layer_translucent(&r->world.models[i].model, r->surface.plain);
+    }
+    return found;
+}
+
 static int set_up(render_t *r) {
     size_t size_bytes;
     mesh_report_t report;
@@ -289,6 +297,7 @@ static int set_up(render_t *r) {
     r->config.width = r->display.width;
     r->config.height = r->display.height;
     render_layer_apply(&r->layer, &r->config);
+    if (has_translucent(r)) { r->config.effects |= TUILE_LAYERS; }
     if (render_format_apply(&r->format, r->rotate, &r->config) != 0) { return EXIT_FAILURE; }
     if (render_overlay_apply(&r->overlay, &r->config) != 0) { return EXIT_FAILURE; }
     render_surface_apply(&r->surface, &r->sizes, &r->config);

@@ -117,6 +117,22 @@ void render_layer_apply(const render_layer_t *part, tuile_config_t *config) {
     memcpy(config->edge_colour, part->edge_colour, 3);
 }
 
+bool render_layer_translucent(const tuile_model_t *model, bool plain) {
+    for (uint32_t m = 0; m < model->material_count; m++) {
+        const tuile_material_t material = tuile_model_material(model, m);
+        if (material.alpha < 255 || material.blend != TUILE_BLEND_OVER) { return true; }
+        if (plain || material.texture >= model->texture_count) { continue; }
+        const tuile_texture_t texture = tuile_model_texture(model, material.texture);
+        if (texture.format == TUILE_TEXEL_ARGB4444 || texture.flags & (TUILE_TEXTURE_KEY | TUILE_TEXTURE_PALETTE_ALPHA)) {
+            return true;
+        }
+    }
+    for (uint32_t v = 0; !plain && model->colours && v < model->vertex_count; v++) {
+        if (model->colours[4 * (size_t)v + 3] != 255) { return true; }
+    }
+    return false;
+}
+
 static int place(const double *at, size_t count, double unit, q16_16_t *to, sim_error_t *error) {
     for (size_t i = 0; i < count; i++) {
         const double value = at[i] * unit * 65536.0;

@@ -28,6 +28,10 @@ bool render_layer_option(render_layer_t *part, options_t *options, const char *a
 /* Sets what the renderer must be laid out for. */
 void render_layer_apply(const render_layer_t *part, tuile_config_t *config);
 
+/* Has the model translucent faces of its own: by its materials, or, unless plain, by its textures or the colours of its vertices?
+ */
+bool render_layer_translucent(const tuile_model_t *model, bool plain);
+
 /* Puts lines, points and materials into the scene of a frame. unit: world units per model unit. 0, or -1 and one line in error. */
 int render_layer_frame(render_layer_t *part, tuile_scene_t *scene, double unit, sim_error_t *error);
 
