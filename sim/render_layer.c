@@ -12,7 +12,7 @@ const char render_layer_usage[] =
     "  --blend over|add|multiply   how translucent faces meet what is behind them\n"
     "  --edges all|front|hidden|outline   edges of all faces, of front faces, of those no face hides; silhouettes over the faces\n"
     "  --edge-colour RRGGBB     black by default, white without faces\n"
-    "  --line X,Y,Z,X,Y,Z[,RRGGBB]   a line in model units that faces may hide; up to 64\n"
+    "  --line X,Y,Z,X,Y,Z[,RRGGBB]   a line in model units, between --near and --far, that faces may hide; up to 64\n"
     "  --smooth-lines           anti-aliased\n"
     "  --point X,Y,Z[,SIZE[,RRGGBB]]   a disc, SIZE pixels across (5), that faces may hide; up to 64\n";
 

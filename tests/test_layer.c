@@ -266,6 +266,72 @@ static void memory_changes_no_picture(void **state) {
     stage_close(&stage);
 }
 
+static void of_two_faces_equally_deep_the_first_is_seen_over_the_other(void **state) {
+    crossing_t c;
+    (void)state;
+    crossing_open(&c, 5);
+    const tuile_config_t config = crossing_config(&c, TUILE_RGB666);
+    for (unsigned i = 0; i < 2; i++) {
+        c.materials[i] = (tuile_material_t){.alpha = 128, .texture = TUILE_NO_TEXTURE, .flags = TUILE_MATERIAL_UNLIT};
+        c.materials[i].colour[i] = 255;
+        tuile_rotation(c.instances[i].pose.rotation, 2, 0);
+        memset(c.instances[i].pose.translation, 0, sizeof c.instances[i].pose.translation);
+    }
+    c.scene.instance_count = 2;
+    memset(c.scene.background, 0, 3);
+    uint8_t *picture = frame_draw(&c.scene, &config, (size_t)1 << 20, NULL);
+    const uint8_t *seen = picture + 3 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
+    /* Green over black: 128; red over that: red 128, green 128 * 127 / 255 = 63.7. In 63 steps: 31.6 and 15.8. */
+    assert_int_equal(seen[0] >> 2, 32);
+    assert_int_equal(seen[1] >> 2, 16);
+    free(picture);
+    model_free(&c.compiled);
+}
+
+static void faces_of_one_model_may_be_opaque_and_translucent(void **state) {
+    for (unsigned m = 0; m <= TUILE_TREE; m++) {
+        const mesh_options_t options = {.tree = true};
+        tuile_material_t materials[2];
+        model_compiled_t compiled;
+        mesh_t mesh;
+        (void)state;
+        model_octahedron(&mesh);
+        model_compile_with(&compiled, &mesh, &options);
+        mesh_free(&mesh);
+        assert_int_equal(compiled.model.material_count, 2);
+        for (unsigned i = 0; i < 2; i++) { /* red and blue: red faces are not there */
+            materials[i] = tuile_model_material(&compiled.model, i);
+            materials[i].flags = TUILE_MATERIAL_UNLIT;
+            if (materials[i].colour[0] > materials[i].colour[2]) { materials[i].alpha = 0; }
+        }
+        tuile_instance_t instance = {.model = &compiled.model, .materials = materials, .two_sided = true};
+        random_source_t random = random_seed(4);
+        turn(&instance.pose, &random);
+        memset(instance.pose.translation, 0, sizeof instance.pose.translation);
+        const tuile_scene_t scene = {.instances = &instance, .instance_count = 1, .camera = camera_at(5)};
+        const tuile_config_t config = {.width = WIDTH,
+                                       .height = HEIGHT,
+                                       .method = (uint8_t)m,
+                                       .format = TUILE_RGB666,
+                                       .effects = TUILE_LAYERS,
+                                       .cluster_vertices = compiled.model.cluster_vertices_max,
+                                       .tree_depth = compiled.model.tree_depth};
+        unsigned red = 0, blue = 0;
+        for (unsigned with = 0; with < 2; with++) {
+            uint8_t *picture = frame_draw(&scene, &config, (size_t)1 << 20, NULL);
+            for (unsigned i = 0; i < WIDTH * HEIGHT; i++) {
+                red += picture[3 * i] > picture[3 * i + 2];
+                blue += picture[3 * i] < picture[3 * i + 2];
+            }
+            free(picture);
+            if (with == 0) { assert_int_equal(red, 0); }
+            materials[0].alpha = materials[1].alpha = 255;
+        }
+        assert_true(red > 50 && blue > 100);
+        model_free(&compiled);
+    }
+}
+
 static void without_layers_translucent_faces_are_opaque(void **state) {
     stage_t stage;
     tuile_material_t material;
@@ -303,6 +369,8 @@ static void alpha_0_shows_what_is_behind(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fragments_are_blended_by_depth),
+        cmocka_unit_test(of_two_faces_equally_deep_the_first_is_seen_over_the_other),
+        cmocka_unit_test(faces_of_one_model_may_be_opaque_and_translucent),
         cmocka_unit_test(order_of_submission_decides_ties_only),
         cmocka_unit_test(all_methods_and_tiles_blend_alike),
         cmocka_unit_test(memory_changes_no_picture),
