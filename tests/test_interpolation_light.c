@@ -59,7 +59,7 @@ static void measure(const vertex_t v[3], region_t at, errors_t *errors) {
             const uint32_t drawn = (uint32_t)(shade + dx * (uint64_t)(int64_t)x + dy * (uint64_t)(int64_t)y);
             if (light != drawn) { fail_msg("pixel %d,%d: %08x deferred, %08x drawn", x, y, light, drawn); }
             if (light >> 24 < least || light >> 24 > most) { fail_msg("pixel %d,%d: %u beyond the corners", x, y, light >> 24); }
-            const int128_t off = ((int128_t)light - (1 << 23)) * area - (exact << 24); /* * area * 2^24 */
+            const int128_t off = ((int128_t)light - (1 << 23)) * area - exact * (1 << 24); /* * area * 2^24 */
             const long double error = fabsl((long double)off / (long double)area) * 0x1p-24L;
             long double *worst = small ? &errors->small : &errors->large;
             *worst = fmaxl(*worst, error);
