@@ -61,3 +61,5 @@ without samples TUILE_FEATURES=0x0ff "raster/resolve/mean.c" ".aa = TUILE_AA_2X2
 without formats TUILE_FORMATS=0x001 "" ".format = TUILE_RGB332"
 without_in_scene "key frames" TUILE_FEATURES=0x17f "$(echo raster/frame/morph.c raster/geometry/morph.c raster/scene/*.c)" ".morph = 1"
 without overlays TUILE_FEATURES=0x1ff "$(echo raster/overlay/*.c)" ".overlay = (tuile_overlay_fn)8"
+without layers TUILE_FEATURES=0x3cf "$(echo raster/layer/*.c)" ".effects = TUILE_LAYERS"
+without lines TUILE_FEATURES=0x3df "raster/layer/line.c" ".effects = TUILE_LAYERS, .edges = TUILE_EDGES_FRONT"
