@@ -10,11 +10,11 @@ static bool texture_translucent(const tuile_texture_t *texture) {
     return texture->format == TUILE_TEXEL_ARGB4444 || (texture->flags & (TUILE_TEXTURE_KEY | TUILE_TEXTURE_PALETTE_ALPHA)) != 0;
 }
 
-static bool material_translucent(const tuile_t *t, uint32_t number) {
-    const tuile_material_t material = frame_instance_material(t->instance, number);
+static bool material_translucent(const tuile_t *t, const tuile_instance_t *instance, uint32_t number) {
+    const tuile_material_t material = frame_instance_material(instance, number);
     if (material.alpha < 255 || material.blend != TUILE_BLEND_OVER) { return true; }
-    if (material.texture >= t->instance->model->texture_count || t->config.texturing & TUILE_TEXTURE_OFF) { return false; }
-    const tuile_texture_t texture = tuile_model_texture(t->instance->model, material.texture);
+    if (material.texture >= instance->model->texture_count || t->config.texturing & TUILE_TEXTURE_OFF) { return false; }
+    const tuile_texture_t texture = tuile_model_texture(instance->model, material.texture);
     return texture_translucent(&texture);
 }
 
@@ -23,6 +23,13 @@ static bool colours_translucent(const tuile_model_t *model) {
         if (model->colours[4 * (size_t)i + 3] != 255) { return true; }
     }
     return false;
+}
+
+bool layer_translucent(const tuile_t *t, const tuile_instance_t *instance) {
+    for (uint32_t i = 0; i < instance->model->material_count; i++) {
+        if (material_translucent(t, instance, i)) { return true; }
+    }
+    return colours_translucent(instance->model);
 }
 
 static bool sift_edges(tuile_t *t) {
@@ -46,7 +53,7 @@ bool layer_sift(tuile_t *t) {
     uint32_t translucent = 0;
     memset(t->translucent, 0, 256 / 8);
     for (uint32_t i = 0; i < count && i < 256; i++) {
-        if (all || material_translucent(t, i)) {
+        if (all || material_translucent(t, t->instance, i)) {
             t->translucent[i / 32] |= 1u << i % 32;
             translucent++;
         }

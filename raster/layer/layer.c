@@ -111,6 +111,7 @@ static int part_bin(tuile_t *t, unsigned part) {
     t->layer_part = part == 0 ? LAYER_PART_FACES : LAYER_PART_EDGES;
     if (!has_part(t, part)) { return FRAME_OK; }
     for (unsigned i = 0; i < t->scene->instance_count; i++) {
+        if (part == 0 && !layer_translucent(t, &t->scene->instances[i])) { continue; }
         const int result = bin_instance(t, i);
         if (result != FRAME_OK) { return result; }
     }
@@ -229,7 +230,9 @@ int layer_tile(tuile_t *t) {
         result = FRAME_OK;
     }
     const bool immediate = t->immediate;
-    if (result == FRAME_OK) { result = bands_draw(t, &items); }
+    const bool any =
+        !items.gathered || items.end[PARTS - 1] > items.first || t->scene->sprite_count != 0 || t->scene->line_count != 0;
+    if (result == FRAME_OK && any) { result = bands_draw(t, &items); }
     t->immediate = immediate;
     items_end(t, &kept);
     if (result != FRAME_FULL) { return result; }

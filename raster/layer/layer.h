@@ -88,6 +88,9 @@ int layer_tile(tuile_t *t);
 
 /* ---- face.c: which faces are translucent; faces as items ---- */
 
+/* Has the instance any translucent face? */
+bool layer_translucent(const tuile_t *t, const tuile_instance_t *instance);
+
 /* The instance that was opened last: whether any of its faces are wanted, and which, as t->sift and t->layer_part say. */
 bool layer_sift(tuile_t *t);
 
