@@ -470,6 +470,10 @@ typedef struct tuile_config {
 #define TUILE_MORPH_FACES 128u
 #define TUILE_MORPH_BYTES(vertices, faces) TUILE_ALIGN8(12u * (vertices) + 3u * (faces))
 
+/* What a frame takes besides in which some light is coloured or a point, or there are more than 8 of them, or some material has a
+ * highlight or two sides: to be added. */
+#define TUILE_LIGHTS_BYTES(lights) (40u + 64u * (size_t)(lights))
+
 typedef struct tuile tuile_t;
 
 /* Lays a renderer out in block, which must be 8-byte aligned and outlive it. Nothing else is ever written but the block.

@@ -10,6 +10,7 @@
 #include "output.h"
 #include "render_format.h"
 #include "render_layer.h"
+#include "render_light.h"
 #include "render_mesh.h"
 #include "render_overlay.h"
 #include "render_surface.h"
@@ -50,7 +51,6 @@ static const char usage[] =
     "  --ortho SIZE             orthographic: SIZE model units high\n"
     "  --pitch RX,RY            size of a pixel, for panels whose pixels are not square\n"
     "  --centre I,J             principal point in pixels\n"
-    "  --light X,Y,Z            the way the light travels\n"
     "  --background RRGGBB\n"
     "  --out frame-%03d.png     pictures of the panel; PPM when the name ends so\n"
     "  --show METHOD-VIEW       draws by METHOD and makes --out show how: zbuffer-overdraw, scanline-edges, warnock-windows,\n"
@@ -64,6 +64,7 @@ static const char usage[] =
 
 static void print_usage(FILE *file) {
     (void)fputs(usage, file);
+    (void)fputs(render_light_usage, file);
     (void)fputs(render_mesh_usage, file);
     (void)fputs(render_format_usage, file);
     (void)fputs(render_surface_usage, file);
@@ -82,6 +83,7 @@ typedef struct render {
     tuile_config_t config;
     render_format_t format;
     render_surface_t surface;
+    render_light_t light;
     render_world_t world;
     render_overlay_t overlay;
     render_layer_t layer;
@@ -175,8 +177,6 @@ static int parse(render_t *r, int count, char **arguments) {
             v->has_centre = options_numbers(&options, v->centre, 2, -16000.0, 16000.0);
         } else if (strcmp(argument, "--orbit") == 0) {
             v->has_orbit = options_numbers(&options, v->orbit, 3, -1e6, far);
-        } else if (strcmp(argument, "--light") == 0) {
-            v->has_light = options_numbers(&options, v->light, 3, -far, far);
         } else if (strcmp(argument, "--background") == 0) {
             (void)render_value_background(&options, v->background);
         } else if (strcmp(argument, "--out") == 0) {
@@ -205,7 +205,8 @@ static int parse(render_t *r, int count, char **arguments) {
         } else if (!render_format_option(&r->format, &options, argument) &&
                    !render_mesh_option(&r->mesh_options, &options, argument) &&
                    !render_surface_option(&r->surface, &options, argument) && !render_world_option(&r->world, &options, argument) &&
-                   !render_overlay_option(&r->overlay, &options, argument) && !render_layer_option(&r->layer, &options, argument)) {
+                   !render_light_option(&r->light, &options, argument) && !render_overlay_option(&r->overlay, &options, argument) &&
+                   !render_layer_option(&r->layer, &options, argument)) {
             options_unknown(&options);
         }
     }
@@ -299,6 +300,7 @@ static int set_up(render_t *r) {
     render_layer_apply(&r->layer, &r->config);
     if (has_translucent(r)) { r->config.effects |= TUILE_LAYERS; }
     if (render_format_apply(&r->format, r->rotate, &r->config) != 0) { return EXIT_FAILURE; }
+    render_light_apply(&r->light, &r->config);
     if (render_overlay_apply(&r->overlay, &r->config) != 0) { return EXIT_FAILURE; }
     render_surface_apply(&r->surface, &r->sizes, &r->config);
     if (open_renderer(&r->renderer, &r->block, &r->config, &r->sizes, &r->memory_bytes) != 0) { return EXIT_FAILURE; }
@@ -306,6 +308,7 @@ static int set_up(render_t *r) {
         return command_fail("%s", r->error.text);
     }
     if (render_world_place(&r->world, &r->view, (unsigned)r->frames, &r->error) != 0) { return command_fail("%s", r->error.text); }
+    if (render_light_place(&r->light, &r->view, &r->error) != 0) { return command_fail("%s", r->error.text); }
     if (r->sheet) {
         r->pictures = sim_pictures_create((size_t)r->frames);
         if (!r->pictures) { return command_fail("out of memory"); }
@@ -566,6 +569,7 @@ int command_render(int count, char **arguments) {
         free(r.bytes);
         render_world_free(&r.world);
         render_layer_free(&r.layer);
+        render_light_free(&r.light);
     }
     render_overlay_free(&r.overlay);
     return code;

@@ -44,6 +44,24 @@ C
     build "$1" "$2" "$3"
 }
 
+# The same of a scene with the fields, for a renderer with surfaces.
+without_in_frame() {
+    cat >"$folder/main.c" <<C
+#include "raster/tuile.h"
+static uint64_t block[8192];
+int main(void) {
+    static const tuile_config_t config = {.width = 64, .height = 64, .tile_height = 4, .effects = TUILE_SURFACES};
+    static const tuile_light_t point = {.kind = TUILE_LIGHT_POINT, .intensity = 255, .range = 65536};
+    static const tuile_scene_t plain = {.ambient = 255}, wanting = {.ambient = 255, $4};
+    tuile_t *renderer;
+    (void)point;
+    if (tuile_init(&renderer, &config, block, sizeof block, 0) || tuile_begin(renderer, &plain) || tuile_end(renderer, 0)) { return 1; }
+    return tuile_begin(renderer, &wanting) != TUILE_ERROR_EFFECTS;
+}
+C
+    build "$1" "$2" "$3"
+}
+
 build() {
     sources=
     for source in raster/*.c raster/*/*.c; do
@@ -60,6 +78,8 @@ without resolve TUILE_FEATURES=0x0bf "$(echo raster/resolve/*.c)" ".format = TUI
 without samples TUILE_FEATURES=0x0ff "raster/resolve/mean.c" ".aa = TUILE_AA_2X2"
 without formats TUILE_FORMATS=0x001 "" ".format = TUILE_RGB332"
 without_in_scene "key frames" TUILE_FEATURES=0x17f "$(echo raster/frame/morph.c raster/geometry/morph.c raster/scene/*.c)" ".morph = 1"
+without_in_frame lights TUILE_FEATURES=0x1fb "raster/frame/lights.c raster/geometry/lamp.c raster/surface/light.c" ".lights = &point, .light_count = 1"
+without_in_frame fog TUILE_FEATURES=0x1f7 "raster/surface/fog.c raster/surface/fog_stage.c" ".fog = {TUILE_FOG_LINEAR, {0}, 0, 65536}"
 without overlays TUILE_FEATURES=0x1ff "$(echo raster/overlay/*.c)" ".overlay = (tuile_overlay_fn)8"
 without layers TUILE_FEATURES=0x3cf "$(echo raster/layer/*.c)" ".effects = TUILE_LAYERS"
 without lines TUILE_FEATURES=0x3df "raster/layer/line.c" ".effects = TUILE_LAYERS, .edges = TUILE_EDGES_FRONT"

@@ -28,10 +28,14 @@ int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster)
         return BIN_CULLED;
     }
     const uint32_t ahead = t->numbers != NULL ? SOURCE_SLOTS : 0;
-    if (vertices + ahead > frame_slots_left(t)) { return FRAME_FULL; }
+    const bool coloured = TUILE_HAS(LIGHTS) && t->coloured && t->config.shade != TUILE_FLAT;
+    const uint32_t behind = coloured ? (vertices + 1u) / 2u : 0;
+    if (vertices + ahead + behind > frame_slots_left(t)) { return FRAME_FULL; }
     if (ahead) {
         *(source_slot_t *)(void *)(t->vertices + t->vertex_count) =
-            (source_slot_t){.first_vertex = first_vertex, .instance = t->instance_number};
+            (source_slot_t){.first_vertex = first_vertex,
+                            .instance = t->instance_number,
+                            .colours = (uint16_t)(coloured ? t->vertex_count + ahead + vertices : 0)};
     }
     bin_cluster_at(t, bytes, t->vertex_count + ahead, cluster);
     if (TUILE_HAS(MORPH) && TUILE_UNLIKELY(t->instance->morph != 0)) { frame_morph_cluster(t, cluster); }
@@ -41,7 +45,8 @@ int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster)
         cluster->any_outside |=
             vertex_fractions(&t->transform, cluster->positions, cluster->fractions, vertices, cluster->vertices);
     }
-    t->vertex_count += vertices + ahead;
+    if (coloured) { frame_lights_cluster(t, cluster, t->vertex_count + ahead + vertices); }
+    t->vertex_count += vertices + ahead + behind;
     t->cluster_end = t->vertex_count;
     t->stats.vertices += vertices;
     t->stats.faces_tested += faces;
@@ -63,6 +68,7 @@ void bin_cluster_at(const tuile_t *t, const uint8_t *bytes, uint32_t slot, frame
     cluster->any_outside = true;
     cluster->first_face = t->face_base + first_face;
     cluster->source = (uint16_t)(t->numbers != NULL ? slot - SOURCE_SLOTS : 0);
+    cluster->tinted = TUILE_HAS(LIGHTS) && t->numbers != NULL && model->colours != NULL;
     cluster->coloured = t->numbers != NULL && ((const source_slot_t *)(const void *)&t->vertices[cluster->source])->colours != 0;
 }
 
@@ -103,6 +109,9 @@ int bin_instance_open(tuile_t *t, unsigned number) {
     t->instance_number = (uint16_t)number;
     tuile_scene_t sampled = *scene;
     sampled.camera = t->camera;
+    if (t->coloured_scene || t->span_kind == SPAN_IDS) { /* t->lamps have them */
+        sampled.light_count = 0;
+    }
     int error = transform_check(&sampled, t->instance);
     if (error) { return error; }
     const bool outside = cull_instance_outside(&t->camera, t->instance, &t->region);
@@ -117,6 +126,7 @@ int bin_instance_open(tuile_t *t, unsigned number) {
     }
     t->material_base = (uint16_t)(frame_counts_materials(t) ? frame_material_base(scene, number) : 0);
     t->sides = t->instance->two_sided ? SIDE_FRONT | SIDE_BACK : SIDE_FRONT;
+    if (TUILE_HAS(LIGHTS) && TUILE_UNLIKELY(t->lamps != NULL || t->backs)) { frame_lights_instance(t); }
     if (frame_layers(t) && !layer_sift(t)) { return BIN_CULLED; }
     return FRAME_OK;
 }

@@ -30,6 +30,9 @@ TUILE_INLINE void record_emit(tuile_t *t, record_t *record, int32_t row, uint32_
             record_surface_t *surface = frame_record_surface(record);
             surface->source = t->source;
             surface->green = surface->blue = record->light;
+            if (TUILE_HAS(LIGHTS) && TUILE_UNLIKELY(t->coloured && t->config.shade == TUILE_FLAT)) {
+                frame_lights_flat(t, surface);
+            }
         } else {
             ((record_id_t *)(void *)record)->id = id + 1;
         }
@@ -231,9 +234,9 @@ static TUILE_NOINLINE int bin_clipped(tuile_t *t, const frame_cluster_t *cluster
     lit_alike &= !cluster->coloured;
     if (left == 3) {
         result = bin_one_triangle(t, base, 0, 1, 2, material, normal, id);
-    } else if (normal == NULL && !lit_alike && left <= 100) {
+    } else if (((normal == NULL && !lit_alike) || cluster->tinted) && left <= 100) {
         for (uint32_t i = 1; i + 1 < (uint32_t)left && result == FRAME_OK; i++) {
-            result = bin_one_triangle(t, base, 0, i, i + 1, material, NULL, id);
+            result = bin_one_triangle(t, base, 0, i, i + 1, material, normal, id);
         }
     } else {
         const polygon_ring_t ring = {out, NULL, NULL, (uint32_t)left};
@@ -258,19 +261,36 @@ static TUILE_NOINLINE int bin_triangles(tuile_t *t, const frame_cluster_t *clust
     return FRAME_OK;
 }
 
+/* Before each face that is told by its material and corners (frame/lights.c). */
+TUILE_INLINE void face_lit(tuile_t *t, frame_lit_face_t *lit, const uint8_t *corners, unsigned count, uint8_t material,
+                           const int8_t *normal, unsigned sides) {
+    if (TUILE_HAS(LIGHTS) && TUILE_UNLIKELY(t->careful)) {
+        lit->corners = corners;
+        lit->count = (uint8_t)count;
+        lit->material = material;
+        lit->normal = normal;
+        frame_lights_face(t, lit, sides);
+    }
+}
+
 static TUILE_NOINLINE int bin_outside_triangles(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
     const uint8_t *face = cluster->faces;
+    const uint8_t sides = t->sides;
+    frame_lit_face_t lit = {.cluster = cluster};
+    int result = FRAME_OK;
     const uint32_t base = (uint32_t)(cluster->vertices - t->vertices);
     for (unsigned f = 0; f < count; f++, face += 4) {
         const vertex_t *v = cluster->vertices;
         const int8_t *normal = cluster->face_normals ? cluster->face_normals + 3 * f : NULL;
         const bool outside = v[face[0]].x == VERTEX_OUTSIDE || v[face[1]].x == VERTEX_OUTSIDE || v[face[2]].x == VERTEX_OUTSIDE;
         const uint32_t id = cluster->first_face + f;
-        const int result = outside ? bin_clipped(t, cluster, face, 3, face[3], normal, id)
-                                   : bin_one_triangle(t, base, face[0], face[1], face[2], face[3], normal, id);
-        if (TUILE_UNLIKELY(result != FRAME_OK)) { return result; }
+        face_lit(t, &lit, face, 3, face[3], normal, sides);
+        result = outside ? bin_clipped(t, cluster, face, 3, face[3], normal, id)
+                         : bin_one_triangle(t, base, face[0], face[1], face[2], face[3], normal, id);
+        if (TUILE_UNLIKELY(result != FRAME_OK)) { break; }
     }
-    return FRAME_OK;
+    t->sides = sides;
+    return result;
 }
 
 /* A triangle in a cluster whose vertices may lie too far apart for a record: it gets copies that stand together. */
@@ -344,7 +364,7 @@ static int bin_polygon_any(tuile_t *t, const frame_cluster_t *cluster, const uin
     }
     /* Gouraud: light is affine on a triangle only, so a smooth convex polygon is cut into a fan. */
     lit_alike &= !cluster->coloured;
-    const bool fan = normal == NULL && !lit_alike && flags & MODEL_FACE_CONVEX;
+    const bool fan = ((normal == NULL && !lit_alike) || cluster->tinted) && flags & MODEL_FACE_CONVEX;
     const unsigned parts = fan ? corners - 2 : 1;
     for (unsigned p = 1; p <= parts && result == FRAME_OK; p++) {
         const uint8_t part[3] = {corner[0], corner[p], corner[p + 1]};
@@ -373,7 +393,7 @@ static bool sifted_out(const tuile_t *t, uint8_t material) {
     return translucent != (t->sift == SIFT_TRANSLUCENT);
 }
 
-static int bin_polygon_face(tuile_t *t, const frame_cluster_t *cluster, const uint8_t *face, unsigned f) {
+static int bin_polygon_sided(tuile_t *t, const frame_cluster_t *cluster, const uint8_t *face, unsigned f) {
     if (TUILE_HAS(LAYERS) && sifted_out(t, face[2])) { return FRAME_OK; }
     if (TUILE_LIKELY(!(face[1] & MODEL_FACE_CROSSING))) { return bin_polygon_any(t, cluster, face, f); }
     if (!(side_by_plane(t, cluster, face + 3, face[0], f) & t->sides)) {
@@ -383,6 +403,16 @@ static int bin_polygon_face(tuile_t *t, const frame_cluster_t *cluster, const ui
     const uint8_t sides = t->sides;
     t->sides = SIDE_FRONT | SIDE_BACK;
     const int result = bin_polygon_any(t, cluster, face, f);
+    t->sides = sides;
+    return result;
+}
+
+static int bin_polygon_face(tuile_t *t, const frame_cluster_t *cluster, const uint8_t *face, unsigned f) {
+    const uint8_t sides = t->sides;
+    frame_lit_face_t lit = {.cluster = cluster};
+    const int8_t *normal = cluster->face_normals ? cluster->face_normals + 3 * (size_t)f : NULL;
+    face_lit(t, &lit, face + 3, face[0], face[2], normal, sides);
+    const int result = bin_polygon_sided(t, cluster, face, f);
     t->sides = sides;
     return result;
 }
@@ -419,9 +449,9 @@ int face_bin_all(tuile_t *t, const frame_cluster_t *cluster) {
     t->source = cluster->source;
     const unsigned count = model_u16(cluster->bytes + CLUSTER_AT_FACE_COUNT);
     if (cluster_is_sifted(t, cluster)) { return bin_sifted_triangles(t, cluster, 0, count, false); }
-    return cluster->bytes[CLUSTER_AT_KIND] != MODEL_CLUSTER_TRIANGLES ? bin_polygons(t, cluster, count)
-           : cluster->any_outside                                     ? bin_outside_triangles(t, cluster, count)
-                                                                      : bin_triangles(t, cluster, count);
+    return cluster->bytes[CLUSTER_AT_KIND] != MODEL_CLUSTER_TRIANGLES  ? bin_polygons(t, cluster, count)
+           : cluster->any_outside || (TUILE_HAS(LIGHTS) && t->careful) ? bin_outside_triangles(t, cluster, count)
+                                                                       : bin_triangles(t, cluster, count);
 }
 
 /* ---- some faces of a cluster, in either direction ---- */
@@ -430,18 +460,22 @@ static TUILE_NOINLINE int bin_triangle_run(tuile_t *t, const frame_cluster_t *cl
                                            bool backwards) {
     const uint32_t base = (uint32_t)(cluster->vertices - t->vertices);
     const vertex_t *v = cluster->vertices;
-    const unsigned sides = t->sides;
+    const uint8_t sides = t->sides;
+    frame_lit_face_t lit = {.cluster = cluster};
+    int result = FRAME_OK;
     for (unsigned i = first; i < end; i++) {
         const unsigned f = backwards ? end - 1 - (i - first) : i;
         const uint8_t *face = cluster->faces + 4 * (size_t)f;
         const int8_t *normal = cluster->face_normals ? cluster->face_normals + 3 * (size_t)f : NULL;
         const uint32_t id = cluster->first_face + f;
         const bool outside = v[face[0]].x == VERTEX_OUTSIDE || v[face[1]].x == VERTEX_OUTSIDE || v[face[2]].x == VERTEX_OUTSIDE;
-        const int result = TUILE_UNLIKELY(outside) ? bin_clipped(t, cluster, face, 3, face[3], normal, id)
-                                                   : bin_triangle(t, base, face[0], face[1], face[2], face[3], normal, id, sides);
-        if (TUILE_UNLIKELY(result != FRAME_OK)) { return result; }
+        face_lit(t, &lit, face, 3, face[3], normal, sides);
+        result = TUILE_UNLIKELY(outside) ? bin_clipped(t, cluster, face, 3, face[3], normal, id)
+                                         : bin_triangle(t, base, face[0], face[1], face[2], face[3], normal, id, t->sides);
+        if (TUILE_UNLIKELY(result != FRAME_OK)) { break; }
     }
-    return FRAME_OK;
+    t->sides = sides;
+    return result;
 }
 
 static int bin_polygon_run(tuile_t *t, const frame_cluster_t *cluster, unsigned first, unsigned end, bool backwards) {

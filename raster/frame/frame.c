@@ -221,9 +221,7 @@ static int check_scene(const tuile_t *t, const tuile_scene_t *scene, uint32_t *m
     const int error = check_layers(t, scene);
     if (error) { return error; }
     if (scene->instance_count != 0 && scene->instances == NULL) { return TUILE_ERROR_ARGUMENT; }
-    if (scene->light_count > TRANSFORM_LIGHTS_MAX || (scene->light_count != 0 && scene->lights == NULL)) {
-        return TUILE_ERROR_ARGUMENT;
-    }
+    if (scene->light_count != 0 && scene->lights == NULL) { return TUILE_ERROR_ARGUMENT; }
     for (unsigned i = 0; i < scene->instance_count; i++) {
         const tuile_model_t *model = scene->instances[i].model;
         if (model == NULL) { return TUILE_ERROR_ARGUMENT; }
@@ -252,6 +250,41 @@ static int camera_sample(tuile_t *t, const tuile_scene_t *scene) {
         *lengths[i] = (q16_16_t)scaled;
     }
     return TUILE_OK;
+}
+
+static bool is_white(const uint8_t colour[3]) {
+    return colour[0] == colour[1] && colour[0] == colour[2] && (colour[0] == 0 || colour[0] == 255);
+}
+
+/* 1: vertices' 8 bits are not enough for the scene's light; 0; or an error. */
+static int scene_colours(const tuile_scene_t *scene) {
+    bool coloured = !is_white(scene->ambient_colour) || scene->light_count > TRANSFORM_LIGHTS_MAX;
+    for (unsigned l = 0; l < scene->light_count; l++) {
+        const tuile_light_t *light = &scene->lights[l];
+        const bool point = light->kind == TUILE_LIGHT_POINT;
+        if (light->kind > TUILE_LIGHT_POINT || (point && light->range <= 0)) { return TUILE_ERROR_ARGUMENT; }
+        coloured |= point || !is_white(light->colour);
+    }
+    return coloured;
+}
+
+/* Light and fog of the scene; those who want no more than ids need none. */
+static int begin_light(tuile_t *t, uint8_t **arena) {
+    const tuile_fog_t *fog = &t->scene->fog;
+    t->fog.kind = TUILE_FOG_NONE;
+    t->lamps = NULL;
+    t->coloured = t->coloured_scene = t->careful = t->mixed = t->backs = false;
+    const int coloured = scene_colours(t->scene);
+    if (coloured < 0) { return coloured; }
+    if (fog->kind != TUILE_FOG_NONE && t->span_kind != SPAN_IDS) {
+        if (!TUILE_HAS(FOG) || !frame_deferred(t)) { return TUILE_ERROR_EFFECTS; }
+        const int error = fog_make(&t->fog, fog, &t->camera);
+        if (error) { return error; }
+    }
+    if (coloured && t->span_kind != SPAN_IDS && (!TUILE_HAS(LIGHTS) || !frame_deferred(t))) {
+        return t->scene->light_count > TRANSFORM_LIGHTS_MAX ? TUILE_ERROR_ARGUMENT : TUILE_ERROR_EFFECTS;
+    }
+    return TUILE_HAS(LIGHTS) && (frame_deferred(t) || t->span_kind == SPAN_IDS) ? frame_lights_begin(t, coloured, arena) : TUILE_OK;
 }
 
 int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
@@ -288,6 +321,7 @@ int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     t->textured = t->numbers != NULL && t->config.edges != TUILE_EDGES_HIDDEN && t->config.method == TUILE_ZBUFFER &&
                   t->config.tie == TUILE_TIE_FIRST && t->pixel_kind <= PIXEL_RGB565_LE && scene->fog.kind == TUILE_FOG_NONE;
     if (t->method->begin && (error = t->method->begin(t, &start)) != TUILE_OK) { return error; }
+    if ((error = begin_light(t, &start)) != TUILE_OK) { return error; }
     if (TUILE_HAS(MORPH) && (error = frame_morph_begin(t, &start)) != TUILE_OK) { return error; }
     t->vertices = (vertex_t *)(void *)start;
     const size_t slots = (size_t)(t->arena_end - (uint8_t *)t->vertices) / sizeof(vertex_t);

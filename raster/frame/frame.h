@@ -17,11 +17,13 @@
 #include "../fill/triangle.h"
 #include "../geometry/clip.h"
 #include "../geometry/cull.h"
+#include "../geometry/lamp.h"
 #include "../geometry/model.h"
 #include "../geometry/transform.h"
 #include "../geometry/vertex.h"
 #include "../features.h"
 #include "../pixel.h"
+#include "../surface/fog.h"
 #include "../surface/textured.h"
 #include "../tuile.h"
 
@@ -173,8 +175,17 @@ typedef struct tuile {
     /* Key frames: frame/morph.c. */
     uint8_t *morph_scratch;
     uint16_t morph_vertices; /* that it has room for */
-    bool keep;               /* no immediate passes in this frame */
-    bool immediate_only;     /* no others */
+    /* Coloured light, and fog. */
+    lamps_t *lamps;      /* of the current instance; NULL: no instance of the frame wants them */
+    bool coloured_scene; /* all instances want them */
+    bool backs;          /* some instance is mixed: */
+    bool mixed;          /* some of the current instance's materials are seen from behind, others may not be */
+    bool coloured;       /* the current instance wants lamps */
+    bool careful;        /* frame_lights_face is to be called for each face */
+    fog_t fog;
+    const struct frame_lit_face *lit; /* the face that is being binned, where careful */
+    bool keep;                        /* no immediate passes in this frame */
+    bool immediate_only;              /* no others */
     /* The pass. */
     vertex_t *vertices;
     uint8_t *states; /* where the stream of states may begin: after the vertices */
@@ -252,7 +263,8 @@ typedef struct frame_cluster {
     bool any_outside;    /* some vertex may need clipping */
     uint32_t first_face; /* id - 1 of its first face */
     uint16_t source;     /* slot of its source_slot_t where shading is deferred, else 0 */
-    bool coloured;       /* its vertices have colours (source_colour_t) */
+    bool coloured;       /* its vertices have light in colours */
+    bool tinted;         /* they have colours of their own */
 } frame_cluster_t;
 
 enum { BIN_CULLED = 2 };
@@ -291,6 +303,32 @@ int frame_morph_begin(tuile_t *t, uint8_t **arena);
 
 /* Puts the current instance's mixture in the place of the positions and normals of the cluster, until the next call. */
 void frame_morph_cluster(tuile_t *t, frame_cluster_t *cluster);
+
+/* ---- lights.c: light that the vertices' 8 bits cannot tell ---- */
+
+/* Memory for the frame, if any instance wants it: *arena moves on, by multiples of 8. coloured: all do. TUILE_ERROR_MEMORY. */
+int frame_lights_begin(tuile_t *t, bool coloured, uint8_t **arena);
+
+/* After the current instance's transform has been made; t->lamps or t->backs. */
+void frame_lights_instance(tuile_t *t);
+
+/* t->coloured: the light of a cluster's vertices, 4 bytes each, from slot `slot` on. */
+void frame_lights_cluster(const tuile_t *t, const frame_cluster_t *cluster, uint32_t slot);
+
+/* A face as its model has it. */
+typedef struct frame_lit_face {
+    const frame_cluster_t *cluster;
+    const uint8_t *corners; /* `count` of them, among the cluster's vertices */
+    const int8_t *normal;   /* flat shading, else NULL */
+    uint8_t count, material;
+} frame_lit_face_t;
+
+/* t->careful: before a face is binned; it stays until that is done. sides: those that are wanted; t->sides becomes those that the
+ * material shows. */
+void frame_lights_face(tuile_t *t, const frame_lit_face_t *face, unsigned sides);
+
+/* t->coloured: the light of t->lit in one colour. */
+void frame_lights_flat(const tuile_t *t, record_surface_t *surface);
 
 /* ---- face.c ---- */
 

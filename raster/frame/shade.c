@@ -84,6 +84,7 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
     const vertex_t *corners[3];
     const bool triangle = frame_record_is_triangle(&whole);
     face->least = face->most = 0;
+    face->whole = triangle;
     if (TUILE_LIKELY(triangle)) {
         corners[0] = &t->vertices[whole.v0];
         corners[1] = corners[0] + whole.d1;
@@ -92,6 +93,7 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
         const polygon_ring_t ring = frame_record_ring(t, &whole);
         largest_triangle(&ring, corners);
         ring_depths(&ring, &face->least, &face->most);
+        face->whole = ring.count == 3;
     }
     for (unsigned i = 0; i < 3; i++) {
         corner_open(t, extra, instance->model, (uint32_t)(corners[i] - t->vertices), &face->corner[i]);
@@ -115,6 +117,7 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
     face->tinted = instance->model->colours != NULL;
     face->perspective = t->camera.projection == TUILE_PERSPECTIVE;
     face->texturing = t->config.texturing;
+    face->fog = TUILE_HAS(FOG) && t->fog.kind != TUILE_FOG_NONE ? &t->fog : NULL;
 }
 
 void shade_surface(const tuile_t *t, const record_t *record, surface_t *surface, pixel_kind_t kind) {

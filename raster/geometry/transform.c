@@ -111,7 +111,7 @@ static void light_vectors(transform_t *transform, const tuile_scene_t *scene, co
             }
             /* normal (127 = 1) . light >> 13 = intensity at full incidence: light = intensity * 2^13 / 127 */
             const int64_t value = ((sum >> 14) * scene->lights[l].intensity * 8192 / 127 + (1 << 29)) >> 30;
-            transform->lights[l][j] = (int32_t)(value > 16512 ? 16512 : value < -16512 ? -16512 : value);
+            transform->lights[l][j] = (int16_t)(value > 16512 ? 16512 : value < -16512 ? -16512 : value);
         }
     }
 }

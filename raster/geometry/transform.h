@@ -51,7 +51,7 @@ typedef struct transform {
     bool mirrored;         /* counter-clockwise in the model is clockwise in the window, seen from the same side */
     bool cones;            /* clusters may be dropped by their cones: one-sided, and the eye within 2^51 steps */
     /* Light. */
-    int32_t lights[TRANSFORM_LIGHTS_MAX][3]; /* in model space, towards the light, scaled: (normal . light) >> 13 is 0 ... 255;
+    int16_t lights[TRANSFORM_LIGHTS_MAX][3]; /* in model space, towards the light, scaled: (normal . light) >> 13 is 0 ... 255;
                                                 |components| <= 16512 */
     uint8_t light_count, ambient;            /* ambient >= LIGHT_MIN */
     bool two_sided;

@@ -35,7 +35,7 @@ bool vertex_project(const transform_t *transform, int64_t x, int64_t y, int64_t 
 /* Ambient and all directional lights at a normal, in LIGHT_MIN ... LIGHT_MAX. */
 TUILE_INLINE uint8_t vertex_light(const transform_t *transform, int32_t nx, int32_t ny, int32_t nz) {
     int32_t sum = transform->ambient;
-    const int32_t(*light)[3] = transform->lights, (*const end)[3] = light + transform->light_count;
+    const int16_t(*light)[3] = transform->lights, (*const end)[3] = light + transform->light_count;
     for (; light != end; light++) {
         const int32_t dot = (nx * (*light)[0] + ny * (*light)[1] + nz * (*light)[2]) >> 13; /* |sum| <= 3 * 128 * 16512 < 2^23 */
         if (dot > 0) {

@@ -3,7 +3,8 @@
 #include "surface.h"
 
 #include "../features.h"
-#include "../fill/gradient.h"
+#include "fog_stage.h"
+#include "light.h"
 
 /* ---- into the tile ---- */
 
@@ -167,14 +168,25 @@ static uint32_t rgb_lit(const uint8_t colour[3], uint32_t light) { return pixel_
 
 void surface_make(surface_t *surface, const surface_face_t *face, pixel_kind_t kind) {
     static const uint8_t white[3] = {255, 255, 255};
-    const bool textured = TUILE_HAS(TEXTURES) && face->material.texture != TUILE_NO_TEXTURE && !(face->texturing & TUILE_TEXTURE_OFF);
-    const uint8_t *colour = textured && face->material.flags & TUILE_MATERIAL_REPLACED ? white : face->material.colour;
-    const int32_t alike = light_alike(face);
+    const bool textured =
+        TUILE_HAS(TEXTURES) && face->material.texture != TUILE_NO_TEXTURE && !(face->texturing & TUILE_TEXTURE_OFF);
+    const uint8_t *material = textured && face->material.flags & TUILE_MATERIAL_REPLACED ? white : face->material.colour;
+    const bool coloured = TUILE_HAS(LIGHTS) && light_is_coloured(face), fogged = TUILE_HAS(FOG) && face->fog != NULL;
+    const int32_t alike = coloured ? 255 : light_alike(face);
+    uint8_t colour[3] = {material[0], material[1], material[2]};
+    unsigned varies = 0;
     surface_stage_fn *stage = surface->stage;
     surface->kind = kind;
     surface->blend = face->material.blend;
     surface->fill = surface_fill_stages;
-    if (!textured && alike >= 0) {
+    if (coloured) {
+        uint8_t factor[3];
+        varies = light_make(surface, face, factor);
+        for (unsigned c = 0; c < 3; c++) {
+            colour[c] = (uint8_t)pixel_div255(colour[c] * factor[c] + 127u);
+        }
+    }
+    if (!textured && alike >= 0 && varies == 0 && !fogged) {
         surface->sample = pixel_lit(kind, colour, (uint32_t)alike);
         surface->argb = (uint32_t)face->material.alpha << 24 | rgb_lit(colour, (uint32_t)alike);
         *stage = NULL;
@@ -185,7 +197,7 @@ void surface_make(surface_t *surface, const surface_face_t *face, pixel_kind_t k
     for (unsigned i = 0; textured && i < 3; i++) {
         corner[i] = texture_corner(&face->corner[i], face->material.uv_bits);
     }
-    if (textured && textured_open(surface, face, corner, alike)) { return; }
+    if (textured && !coloured && !fogged && textured_open(surface, face, corner, alike)) { return; }
     surface->argb = (uint32_t)face->material.alpha << 24 | rgb_lit(colour, alike >= 0 ? (uint32_t)alike : 255u);
     *stage++ = textured ? stage_texture : stage_same;
     if (textured) {
@@ -195,6 +207,12 @@ void surface_make(surface_t *surface, const surface_face_t *face, pixel_kind_t k
     if (alike < 0) {
         white_light(surface, &face->corner[0].at, &face->corner[1].at, &face->corner[2].at);
         *stage++ = stage_white_light;
+    }
+    if (TUILE_HAS(LIGHTS) && varies & LIGHT_CHANNELS) { *stage++ = light_stage_channels; }
+    if (TUILE_HAS(LIGHTS) && varies & LIGHT_HIGHLIGHT) { *stage++ = light_stage_highlight; }
+    if (fogged) {
+        fog_open(surface, face);
+        *stage++ = fog_stage;
     }
     *stage = NULL;
 }

@@ -13,6 +13,7 @@
 #include "../fill/triangle.h"
 #include "../geometry/clip.h"
 #include "../pixel.h"
+#include "fog.h"
 #include "texture.h"
 #include "textured.h"
 
@@ -38,6 +39,8 @@ typedef struct surface_face {
     bool tinted;             /* attributes.colour is there; else all is white, opaque */
     bool perspective;        /* depth is proportional to 1 / w: texture coordinates follow it */
     uint8_t texturing;       /* tuile_texturing_t */
+    bool whole;              /* the three corners are all it has */
+    const fog_t *fog;        /* NULL: none */
 } surface_face_t;
 
 typedef struct surface surface_t;
@@ -48,7 +51,7 @@ typedef void (*surface_stage_fn)(const surface_t *surface, int32_t x, int32_t y,
 /* A run of any length into the samples of a tile, which begin at `samples` for x. */
 typedef void (*surface_fill_fn)(const surface_t *surface, int32_t x, int32_t y, int32_t count, void *samples);
 
-enum { SURFACE_STAGES = 5 };
+enum { SURFACE_STAGES = 6 };
 
 struct surface {
     surface_fill_fn fill;
@@ -61,7 +64,8 @@ struct surface {
     texture_plane_t texture;
     textured_map_t map;  /* the fast way */
     depth_plane_t depth; /* where fog or a layer wants it */
-    uint8_t blend;       /* tuile_blend_t, where the face is translucent */
+    const fog_t *fog;
+    uint8_t blend; /* tuile_blend_t, where the face is translucent */
 };
 
 /* Makes a surface of a face: the planes and the functions that its pixels want. */

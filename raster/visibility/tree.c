@@ -160,7 +160,7 @@ static int draw_instance(tuile_t *t, unsigned number) {
     int result = bin_instance_open(t, number);
     if (result != FRAME_OK) { return result == BIN_CULLED ? FRAME_OK : result; }
     const tuile_model_t *model = t->instance->model;
-    walk.two_sided = t->instance->two_sided;
+    walk.two_sided = (t->sides & SIDE_BACK) != 0;
     walk.outer = t->transform.mirrored ? SIDE_BACK : SIDE_FRONT;
     walk.inner = walk.outer ^ (SIDE_FRONT | SIDE_BACK);
     for (uint32_t k = 0; !t->immediate && k < model->cluster_count; k++) {
