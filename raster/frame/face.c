@@ -234,7 +234,7 @@ static TUILE_NOINLINE int bin_clipped(tuile_t *t, const frame_cluster_t *cluster
     lit_alike &= !cluster->coloured;
     if (left == 3) {
         result = bin_one_triangle(t, base, 0, 1, 2, material, normal, id);
-    } else if (((normal == NULL && !lit_alike) || cluster->tinted) && left <= 100) {
+    } else if (count == 3 && ((normal == NULL && !lit_alike) || cluster->tinted) && left <= 100) { /* others may not be convex */
         for (uint32_t i = 1; i + 1 < (uint32_t)left && result == FRAME_OK; i++) {
             result = bin_one_triangle(t, base, 0, i, i + 1, material, normal, id);
         }
