@@ -64,14 +64,17 @@ static void take_light(render_light_t *l, options_t *options, unsigned numbers, 
     for (unsigned i = 0; i < numbers; i++) {
         right = right && part_number(&rest, &at[i], i == 3 ? 1e-12 : -1e12, 1e12);
     }
-    if (right && rest) { right = part_colour(&rest, light.colour); }
+    const bool has_colour = right && rest;
+    if (has_colour) { right = part_colour(&rest, light.colour); }
     if (right && rest) { right = has_intensity = part_number(&rest, &intensity, 0.0, 1.0); }
     if (!right || rest) {
         fail(options, what, text);
         return;
     }
-    /* No colour is white, so black is no light at all. */
-    if ((light.colour[0] | light.colour[1] | light.colour[2]) == 0 && strchr(text, ',') && has_intensity) { intensity = 0; }
+    if (has_colour && (light.colour[0] | light.colour[1] | light.colour[2]) == 0) { /* the scene's word for white */
+        intensity = 0.0;
+        has_intensity = true;
+    }
     light.intensity = (uint8_t)lround(intensity * 255.0);
     memcpy(l->at[l->count], at, sizeof at);
     l->has_intensity[l->count] = has_intensity || light.kind == TUILE_LIGHT_POINT;
