@@ -332,6 +332,44 @@ static void faces_of_one_model_may_be_opaque_and_translucent(void **state) {
     }
 }
 
+static void vertex_colours_bring_their_alpha(void **state) {
+    static const uint8_t alphas[] = {0, 128, 255};
+    (void)state;
+    for (unsigned a = 0; a < 3; a++) {
+        uint8_t colours[3][4];
+        mesh_t mesh;
+        model_compiled_t compiled;
+        model_start(&mesh);
+        const uint32_t corners[3] = {model_position(&mesh, -2, -2, 0), model_position(&mesh, 2, -2, 0),
+                                     model_position(&mesh, 0, 2, 0)};
+        model_face(&mesh, corners, 3, model_material(&mesh, 255, 255, 255));
+        for (unsigned i = 0; i < 3; i++) {
+            memset(colours[i], 255, 3);
+            colours[i][3] = alphas[a];
+        }
+        mesh.colours = colours;
+        model_compile_with(&compiled, &mesh, NULL);
+        mesh.colours = NULL;
+        mesh_free(&mesh);
+        tuile_material_t material = tuile_model_material(&compiled.model, 0);
+        material.flags |= TUILE_MATERIAL_UNLIT;
+        tuile_instance_t instance = {
+            .model = &compiled.model, .materials = &material, .two_sided = true, .pose = {.scale = TUILE_SCALE_ONE}};
+        tuile_rotation(instance.pose.rotation, 2, 0);
+        const tuile_scene_t scene = {.instances = &instance, .instance_count = 1, .camera = camera_at(6)};
+        const tuile_config_t config = {.width = WIDTH,
+                                       .height = HEIGHT,
+                                       .format = TUILE_RGB666,
+                                       .effects = TUILE_LAYERS,
+                                       .cluster_vertices = compiled.model.cluster_vertices_max};
+        uint8_t *picture = frame_draw(&scene, &config, (size_t)1 << 20, NULL);
+        /* White over black: the alpha itself, in 63 steps. */
+        assert_int_equal(picture[3 * (HEIGHT / 2 * WIDTH + WIDTH / 2)] >> 2, (alphas[a] * 126 + 255) / 510);
+        free(picture);
+        model_free(&compiled);
+    }
+}
+
 static void without_layers_translucent_faces_are_opaque(void **state) {
     stage_t stage;
     tuile_material_t material;
@@ -369,6 +407,7 @@ static void alpha_0_shows_what_is_behind(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fragments_are_blended_by_depth),
+        cmocka_unit_test(vertex_colours_bring_their_alpha),
         cmocka_unit_test(of_two_faces_equally_deep_the_first_is_seen_over_the_other),
         cmocka_unit_test(faces_of_one_model_may_be_opaque_and_translucent),
         cmocka_unit_test(order_of_submission_decides_ties_only),

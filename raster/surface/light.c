@@ -5,6 +5,7 @@
 #include "../fill/gradient.h"
 
 #define LIGHT_HIGHLIGHT_CHANNEL 3
+#define LIGHT_ALPHA_CHANNEL 4
 
 bool light_is_coloured(const surface_face_t *face) {
     const uint8_t *e = face->material.emission, *flat = face->flat_light;
@@ -56,7 +57,7 @@ light_plane_t light_plane(const surface_corner_t corner[3], const uint8_t value[
 
 unsigned light_make(surface_t *surface, const surface_face_t *face, uint8_t factor[3]) {
     const bool shines = face->coloured && face->material.specular && !(face->material.flags & TUILE_MATERIAL_UNLIT);
-    uint8_t value[4][3];
+    uint8_t value[4][3], alpha[3];
     unsigned varies = 0;
     for (unsigned i = 0; i < 3; i++) {
         const unsigned corner = face->triangle || face->whole ? i : 0;
@@ -67,12 +68,15 @@ unsigned light_make(surface_t *surface, const surface_face_t *face, uint8_t fact
         const uint32_t highlight = face->corner[corner].attributes.light[LIGHT_HIGHLIGHT_CHANNEL];
         value[3][i] = (uint8_t)(shines ? pixel_div255(highlight * face->material.specular + 127u) : 0);
         if (value[3][i] != 0) { varies |= LIGHT_HIGHLIGHT; }
+        alpha[i] = face->tinted ? face->corner[corner].attributes.colour[3] : 255;
+        if (alpha[i] != 255) { varies |= LIGHT_ALPHA; }
     }
     for (unsigned c = 0; c < 3; c++) {
         factor[c] = varies & LIGHT_CHANNELS ? 255 : value[c][0];
         if (varies & LIGHT_CHANNELS) { surface->channel[c] = light_plane(face->corner, value[c]); }
     }
     if (varies & LIGHT_HIGHLIGHT) { surface->channel[LIGHT_HIGHLIGHT_CHANNEL] = light_plane(face->corner, value[3]); }
+    if (varies & LIGHT_ALPHA) { surface->channel[LIGHT_ALPHA_CHANNEL] = light_plane(face->corner, alpha); }
     return varies;
 }
 
@@ -89,6 +93,14 @@ void light_stage_channels(const surface_t *surface, int32_t x, int32_t y, int32_
         argb[i] = (c & 0xff000000u) | PIXEL_RGB(pixel_div255((c >> 16 & 255u) * light_held(red) + 127u),
                                                 pixel_div255((c >> 8 & 255u) * light_held(green) + 127u),
                                                 pixel_div255((c & 255u) * light_held(blue) + 127u));
+    }
+}
+
+void light_stage_alpha(const surface_t *surface, int32_t x, int32_t y, int32_t count, uint32_t *argb) {
+    const light_plane_t *plane = &surface->channel[LIGHT_ALPHA_CHANNEL];
+    uint32_t v = plane_at(plane, x, y);
+    for (int32_t i = 0; i < count; i++, v += plane->dx) {
+        argb[i] = (argb[i] & 0xffffffu) | pixel_div255((argb[i] >> 24) * light_held(v) + 127u) << 24;
     }
 }
 

@@ -17,7 +17,7 @@
 
 #include "surface.h"
 
-enum { LIGHT_CHANNELS = 1, LIGHT_HIGHLIGHT = 2 };
+enum { LIGHT_CHANNELS = 1, LIGHT_HIGHLIGHT = 2, LIGHT_ALPHA = 4 };
 
 /* Is the face of this kind? Else its light is one number a corner. */
 bool light_is_coloured(const surface_face_t *face);
@@ -34,8 +34,9 @@ TUILE_INLINE uint32_t light_held(uint32_t v) {
     return level < 0 ? 0 : level > 255 ? 255u : (uint32_t)level;
 }
 
-/* Stages: light on what is there; highlights over it. */
+/* Stages: light on what is there; highlights over it; the alpha of vertex colours times what is there. */
 void light_stage_channels(const surface_t *surface, int32_t x, int32_t y, int32_t count, uint32_t *argb);
 void light_stage_highlight(const surface_t *surface, int32_t x, int32_t y, int32_t count, uint32_t *argb);
+void light_stage_alpha(const surface_t *surface, int32_t x, int32_t y, int32_t count, uint32_t *argb);
 
 #endif

@@ -210,6 +210,7 @@ void surface_make(surface_t *surface, const surface_face_t *face, pixel_kind_t k
     }
     if (TUILE_HAS(LIGHTS) && varies & LIGHT_CHANNELS) { *stage++ = light_stage_channels; }
     if (TUILE_HAS(LIGHTS) && varies & LIGHT_HIGHLIGHT) { *stage++ = light_stage_highlight; }
+    if (TUILE_HAS(LIGHTS) && varies & LIGHT_ALPHA) { *stage++ = light_stage_alpha; }
     if (fogged) {
         fog_open(surface, face);
         *stage++ = fog_stage;

@@ -51,7 +51,7 @@ typedef void (*surface_stage_fn)(const surface_t *surface, int32_t x, int32_t y,
 /* A run of any length into the samples of a tile, which begin at `samples` for x. */
 typedef void (*surface_fill_fn)(const surface_t *surface, int32_t x, int32_t y, int32_t count, void *samples);
 
-enum { SURFACE_STAGES = 6 };
+enum { SURFACE_STAGES = 7 };
 
 struct surface {
     surface_fill_fn fill;
