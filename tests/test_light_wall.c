@@ -393,6 +393,77 @@ static void fog_takes_its_share(void **state) {
     wall_close(&w);
 }
 
+/* Halfway through the fog what is added has lost half of itself, and what multiplies is halfway to white. */
+static void blended_faces_fade_to_nothing(void **state) {
+    wall_t w;
+    (void)state;
+    wall_open(&w);
+    w.config.effects = TUILE_LAYERS;
+    w.scene.ambient = 255;
+    w.scene.fog = (tuile_fog_t){TUILE_FOG_LINEAR, {100, 200, 250}, TUILE_Q16(30), TUILE_Q16(50)};
+    w.material.blend = TUILE_BLEND_ADD;
+    wall_has(&w, 16, 100, 50, 25, 1);
+    w.material.blend = TUILE_BLEND_MULTIPLY;
+    memset(w.scene.background, 255, 3);
+    wall_has(&w, 16, 227.5, 177.5, 152.5, 1);
+    w.config.effects = TUILE_SURFACES; /* nothing is translucent */
+    wall_has(&w, 16, 150, 150, 150, 1);
+    wall_close(&w);
+}
+
+static void sprites_and_lines_are_fogged(void **state) {
+    const tuile_sprite_t sprite = {
+        .width = TUILE_Q16(8), .height = TUILE_Q16(8), .colour = {200, 100, 50}, .alpha = 255, .pixels = true};
+    const tuile_line_t line = {.from = {-65536, 0, 0}, .to = {65536, 0, 0}, .colour = {200, 100, 50}};
+    wall_t w;
+    (void)state;
+    wall_open(&w);
+    w.config.effects = TUILE_LAYERS;
+    w.scene.instance_count = 0;
+    w.scene.fog = (tuile_fog_t){TUILE_FOG_LINEAR, {100, 200, 250}, TUILE_Q16(30), TUILE_Q16(50)};
+    w.scene.sprites = &sprite;
+    w.scene.sprite_count = 1;
+    wall_has(&w, 16, 150, 150, 150, 1);
+    w.scene.sprite_count = 0;
+    w.scene.lines = &line;
+    w.scene.line_count = 1;
+    wall_has(&w, 16, 150, 150, 150, 1);
+    wall_close(&w);
+}
+
+/* Half of a closed thing's faces have two sides: its outline is what it was. */
+static void outlines_do_not_mind_two_sided_materials(void **state) {
+    stage_t stage;
+    mesh_t mesh;
+    tuile_material_t materials[2];
+    uint8_t *picture[2];
+    (void)state;
+    model_octahedron(&mesh);
+    stage_open(&stage, &mesh, 64, 64);
+    tuile_config_t config = stage_panel_config(&stage);
+    config.width = config.height = 64;
+    config.effects = TUILE_LAYERS;
+    config.edges = TUILE_EDGES_OUTLINE;
+    memset(config.edge_colour, 255, 3);
+    assert_int_equal(stage.compiled.model.material_count, 2);
+    stage.view.instance.materials = materials;
+    for (unsigned k = 0; k < 2; k++) {
+        for (unsigned m = 0; m < 2; m++) {
+            materials[m] = tuile_model_material(&stage.compiled.model, m);
+        }
+        materials[1].flags = k ? TUILE_MATERIAL_TWO_SIDED : 0;
+        picture[k] = frame_draw(&stage.view.scene, &config, (size_t)1 << 20, NULL);
+    }
+    unsigned different = 0; /* lamps round otherwise than the short way: what counts is where white is */
+    for (size_t i = 0; i < frame_bytes(&config); i += 2) {
+        different += (picture[0][i] == 255 && picture[0][i + 1] == 255) != (picture[1][i] == 255 && picture[1][i + 1] == 255);
+    }
+    assert_int_equal(different, 0);
+    free(picture[0]);
+    free(picture[1]);
+    stage_close(&stage);
+}
+
 /* ---- what is refused ---- */
 
 static int begun(const wall_t *w, unsigned effects) {
@@ -451,6 +522,9 @@ int main(void) {
         cmocka_unit_test(two_sided_materials_show_their_backs),
         cmocka_unit_test(vertex_colours_are_interpolated),
         cmocka_unit_test(fog_takes_its_share),
+        cmocka_unit_test(blended_faces_fade_to_nothing),
+        cmocka_unit_test(sprites_and_lines_are_fogged),
+        cmocka_unit_test(outlines_do_not_mind_two_sided_materials),
         cmocka_unit_test(what_is_not_laid_out_for_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -117,6 +117,7 @@ static void face_open(const tuile_t *t, const record_t *record, surface_face_t *
     face->tinted = instance->model->colours != NULL;
     face->perspective = t->camera.projection == TUILE_PERSPECTIVE;
     face->texturing = t->config.texturing;
+    if (!(t->config.effects & TUILE_LAYERS)) { face->material.blend = TUILE_BLEND_OVER; } /* nothing is translucent */
     face->fog = TUILE_HAS(FOG) && t->fog.kind != TUILE_FOG_NONE ? &t->fog : NULL;
 }
 

@@ -37,6 +37,7 @@ static bool sift_edges(tuile_t *t) {
     if (edges == TUILE_EDGES_ALL) { t->sides = SIDE_FRONT | SIDE_BACK; }
     if (edges == TUILE_EDGES_OUTLINE) { t->sides = SIDE_BACK; }
     if (t->sides & SIDE_BACK) { t->transform.cones = false; }
+    if (edges == TUILE_EDGES_ALL || edges == TUILE_EDGES_OUTLINE) { t->mixed = false; } /* whatever sides the materials show */
     t->sift = SIFT_ALL;
     return true;
 }

@@ -80,6 +80,12 @@ TUILE_INLINE void layer_put(layer_band_t *band, int32_t x, int32_t y, uint16_t d
     band->found = true;
 }
 
+/* A fragment's colour in the fog of the scene, if there is any. depth: 1/256 step. */
+TUILE_INLINE uint32_t layer_fogged(const tuile_t *t, uint32_t depth, uint32_t argb, uint8_t blend) {
+    if (!TUILE_HAS(FOG) || t->fog.kind == TUILE_FOG_NONE) { return argb; }
+    return fog_fade(&t->fog, depth << 8, argb, fog_goal(&t->fog, blend));
+}
+
 /* colour over, added to or multiplied with what is behind (0x00rrggbb), each component rounded to the nearest. */
 uint32_t layer_blend(uint32_t behind, uint32_t argb, uint8_t blend);
 

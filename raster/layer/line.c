@@ -18,6 +18,7 @@
 #define LINE_BIAS 8 /* steps of depth */
 
 typedef struct stroke {
+    const tuile_t *t;
     layer_band_t *band;
     layer_place_t from, to;     /* from is the upper one, or the left one of two on one row */
     const depth_plane_t *plane; /* NULL: the depth is that along the line */
@@ -37,8 +38,11 @@ static uint16_t depth_held(int64_t steps) { return (uint16_t)(steps < 1 ? 1 : st
 static void stroke_put(const stroke_t *s, int32_t x, int32_t y, uint32_t alpha, int64_t along_depth) {
     layer_band_t *band = s->band;
     if (x < band->left || x >= band->right || y < band->top || y >= band->bottom) { return; }
-    const uint16_t depth = depth_held((s->plane ? (int64_t)depth_at(s->plane, x, y) : along_depth) + s->bias);
-    if (layer_wants(band, x, y, depth, s->rank)) { layer_put(band, x, y, depth, s->rank, alpha << 24 | s->rgb); }
+    const int64_t true_depth = s->plane ? (int64_t)depth_at(s->plane, x, y) : along_depth;
+    const uint16_t depth = depth_held(true_depth + s->bias);
+    if (!layer_wants(band, x, y, depth, s->rank)) { return; }
+    const uint32_t argb = layer_fogged(s->t, (uint32_t)depth_held(true_depth) << 8, alpha << 24 | s->rgb, TUILE_BLEND_OVER);
+    layer_put(band, x, y, depth, s->rank, argb);
 }
 
 /* The depth after `i` of `count` parts of the way, in steps, rounded. */
@@ -159,7 +163,8 @@ void layer_lines(tuile_t *t, layer_band_t *band) {
         const tuile_line_t *line = &t->scene->lines[i];
         layer_view_t a = layer_to_view(&t->camera, line->from), b = layer_to_view(&t->camera, line->to);
         if (!line_clip(&t->camera, &a, &b)) { continue; }
-        stroke_t stroke = {.band = band,
+        stroke_t stroke = {.t = t,
+                           .band = band,
                            .from = layer_project(&t->camera, &a),
                            .to = layer_project(&t->camera, &b),
                            .rank = layer_rank(LAYER_LINES, i, TUILE_BLEND_OVER),
@@ -191,7 +196,8 @@ void layer_edges(tuile_t *t, layer_band_t *band, uint32_t number, uint32_t rank_
     const bool outline = t->config.edges == TUILE_EDGES_OUTLINE;
     depth_plane_t plane;
     if (!shade_depth(t, record, &plane)) { return; }
-    stroke_t stroke = {.band = band,
+    stroke_t stroke = {.t = t,
+                       .band = band,
                        .plane = outline ? NULL : &plane,
                        .rank = layer_rank(LAYER_EDGES, rank_number, TUILE_BLEND_OVER),
                        .rgb = PIXEL_RGB(colour[0], colour[1], colour[2]),

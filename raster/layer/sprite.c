@@ -8,6 +8,7 @@ typedef struct sprite {
     const tuile_sprite_t *given;
     int64_t left, top, width, height; /* 1/16 sample */
     uint16_t depth;
+    uint32_t fine_depth; /* 1/256 step */
     uint32_t rank, argb;
     int64_t s_step, t_step; /* texels a sixteenth, Q.32 */
 } sprite_t;
@@ -59,6 +60,7 @@ static bool sprite_place(const tuile_t *t, const tuile_sprite_t *given, sprite_t
     sprite->left = at.x - sprite->width / 2;
     sprite->top = at.y - sprite->height / 2;
     sprite->depth = (uint16_t)((at.depth + 128) >> 8);
+    sprite->fine_depth = at.depth;
     sprite->argb = (uint32_t)given->alpha << 24 | PIXEL_RGB(given->colour[0], given->colour[1], given->colour[2]);
     if (given->texture != NULL) {
         sprite->s_step = ((int64_t)given->texture->width << 32) / sprite->width;
@@ -73,7 +75,7 @@ static int32_t first_sample(int64_t coordinate, int32_t low, int32_t high) {
     return first < low ? low : first > high ? high : (int32_t)first;
 }
 
-static void sprite_offer(const sprite_t *sprite, layer_band_t *band) {
+static void sprite_offer(const tuile_t *t, const sprite_t *sprite, layer_band_t *band) {
     const int32_t left = first_sample(sprite->left, band->left, band->right);
     const int32_t right = first_sample(sprite->left + sprite->width, band->left, band->right);
     const int32_t top = first_sample(sprite->top, band->top, band->bottom);
@@ -81,7 +83,8 @@ static void sprite_offer(const sprite_t *sprite, layer_band_t *band) {
     for (int32_t y = top; y < bottom; y++) {
         for (int32_t x = left; x < right; x++) {
             if (!layer_wants(band, x, y, sprite->depth, sprite->rank)) { continue; }
-            layer_put(band, x, y, sprite->depth, sprite->rank, sprite_argb(sprite, x, y));
+            const uint32_t argb = layer_fogged(t, sprite->fine_depth, sprite_argb(sprite, x, y), sprite->given->blend);
+            layer_put(band, x, y, sprite->depth, sprite->rank, argb);
         }
     }
 }
@@ -91,6 +94,6 @@ void layer_sprites(tuile_t *t, layer_band_t *band) {
         sprite_t sprite = {0};
         if (!sprite_place(t, &t->scene->sprites[i], &sprite)) { continue; }
         sprite.rank = layer_rank(LAYER_SPRITES, i, sprite.given->blend);
-        sprite_offer(&sprite, band);
+        sprite_offer(t, &sprite, band);
     }
 }

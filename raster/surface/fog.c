@@ -73,8 +73,8 @@ TUILE_INLINE uint32_t mixed(uint32_t a, uint32_t b, uint32_t share) {
     return (a * (FOG_ONE - share) + b * share + FOG_ONE / 2) >> 16;
 }
 
-uint32_t fog_apply(const fog_t *fog, uint32_t depth, uint32_t argb) {
-    const uint32_t share = fog_share(fog, depth), to = fog->rgb;
+uint32_t fog_fade(const fog_t *fog, uint32_t depth, uint32_t argb, uint32_t to) {
+    const uint32_t share = fog_share(fog, depth);
     return (argb & 0xff000000u) | mixed(argb >> 16 & 255u, to >> 16 & 255u, share) << 16 |
            mixed(argb >> 8 & 255u, to >> 8 & 255u, share) << 8 | mixed(argb & 255u, to & 255u, share);
 }

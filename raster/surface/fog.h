@@ -36,7 +36,16 @@ int fog_make(fog_t *fog, const tuile_fog_t *from, const tuile_camera_t *camera);
 /* The fog's share at a depth in 1/65536 step, 0 ... FOG_ONE. Depths below one step, which no face has, count as one step. */
 uint32_t fog_share(const fog_t *fog, uint32_t depth);
 
-/* A colour 0xaarrggbb at a depth; its alpha stays. */
-uint32_t fog_apply(const fog_t *fog, uint32_t depth, uint32_t argb);
+/* What a colour that is blended so (tuile_blend_t) fades to: behind it all has its own fog already, so what is added fades to
+ * black, and what multiplies to white. */
+TUILE_INLINE uint32_t fog_goal(const fog_t *fog, uint8_t blend) {
+    return blend == TUILE_BLEND_ADD ? 0 : blend == TUILE_BLEND_MULTIPLY ? 0xffffffu : fog->rgb;
+}
+
+/* A colour 0xaarrggbb at a depth, fading to another, 0x00rrggbb; its alpha stays. */
+uint32_t fog_fade(const fog_t *fog, uint32_t depth, uint32_t argb, uint32_t to);
+
+/* The same, into the fog itself. */
+TUILE_INLINE uint32_t fog_apply(const fog_t *fog, uint32_t depth, uint32_t argb) { return fog_fade(fog, depth, argb, fog->rgb); }
 
 #endif

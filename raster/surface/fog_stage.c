@@ -38,10 +38,11 @@ void fog_open(surface_t *surface, const surface_face_t *face) {
 void fog_stage(const surface_t *surface, int32_t x, int32_t y, int32_t count, uint32_t *argb) {
     const depth_plane_t *plane = &surface->depth;
     const int64_t low = plane->low, high = plane->high;
+    const uint32_t to = fog_goal(surface->fog, surface->blend);
     int64_t z =
         (int64_t)((uint64_t)plane->z + (uint64_t)plane->dx * (uint64_t)(int64_t)x + (uint64_t)plane->dy * (uint64_t)(int64_t)y);
     for (int32_t i = 0; i < count; i++) {
-        argb[i] = fog_apply(surface->fog, (uint32_t)(z < low ? low : z > high ? high : z), argb[i]);
+        argb[i] = fog_fade(surface->fog, (uint32_t)(z < low ? low : z > high ? high : z), argb[i], to);
         z = (int64_t)((uint64_t)z + (uint64_t)plane->dx);
     }
 }
