@@ -212,6 +212,7 @@ typedef struct tuile {
     uint16_t source; /* of the faces that are being binned */
     /* Textured faces may be drawn at once: the method has depth, samples are RGB565, and there is no fog. */
     bool textured;
+    bool textured_any;        /* some face of the frame was */
     uint16_t textured_source; /* what was asked for last: a source of vertices, UINT16_MAX: none; and a material */
     uint16_t textured_number;
     textured_material_t textured_last;

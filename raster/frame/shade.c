@@ -243,7 +243,7 @@ static TUILE_NOINLINE void shade_record(tuile_t *t, uint32_t number, int32_t fro
     shade_surface(t, record, &surface, (pixel_kind_t)t->pixel_kind);
     const bool with_depth = shade_keeps_depth(t) && shade_depth(t, record, &depth);
     top = top > from ? top : from;
-    if (t->textured && !t->immediate) { clear_hidden(t, record, (uint16_t)(number + 1), left, top, right, bottom); }
+    if (t->textured_any && !t->immediate) { clear_hidden(t, record, (uint16_t)(number + 1), left, top, right, bottom); }
     shade_runs(t, &surface, with_depth ? &depth : NULL, (uint16_t)(number + 1), left, top, right, bottom);
 }
 

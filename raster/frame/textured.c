@@ -54,5 +54,6 @@ bool textured_start(tuile_t *t, textured_t *textured, const record_t *record, in
     if (!textured_map(&textured->map, &t->textured_last, &a, &b, &c, 8u - t->textured_last.uv_bits)) { return false; }
     triangle->value = 0;
     triangle->head.size_bytes = (sizeof(textured_t) + 7u) & ~7u;
+    t->textured_any = true;
     return true;
 }
