@@ -29,30 +29,50 @@ static uint32_t corner_channel(const surface_face_t *face, unsigned corner, unsi
     return face->tinted ? pixel_div255(light * face->corner[corner].attributes.colour[channel] + 127u) : light;
 }
 
-static bool all_short(int32_t x1, int32_t y1, int32_t x2, int32_t y2) {
+/* What all planes of a face share. */
+typedef struct light_ground {
+    int32_t x1, y1, x2, y2, area; /* counter-clockwise; below 2^31 in the guard band */
+    int32_t reciprocal;           /* of a face within 32 pixels, else 0 */
+    int32_t to_x, to_y;           /* from the first corner to the centre of pixel (0, 0) */
+    unsigned second, third;       /* corners */
+} light_ground_t;
+
+static bool all_short(const light_ground_t *g) {
     const uint32_t side = 512;
-    return (uint32_t)(x1 + (int32_t)side) < 2 * side && (uint32_t)(y1 + (int32_t)side) < 2 * side &&
-           (uint32_t)(x2 + (int32_t)side) < 2 * side && (uint32_t)(y2 + (int32_t)side) < 2 * side;
+    return (uint32_t)(g->x1 + (int32_t)side) < 2 * side && (uint32_t)(g->y1 + (int32_t)side) < 2 * side &&
+           (uint32_t)(g->x2 + (int32_t)side) < 2 * side && (uint32_t)(g->y2 + (int32_t)side) < 2 * side;
+}
+
+static light_ground_t ground_of(const surface_corner_t corner[3]) {
+    const vertex_t *a = &corner[0].at, *b = &corner[1].at, *c = &corner[2].at;
+    light_ground_t g = {.x1 = b->x - a->x, .y1 = b->y - a->y, .x2 = c->x - a->x, .y2 = c->y - a->y, .second = 1, .third = 2};
+    g.area = g.x2 * g.y1 - g.x1 * g.y2;
+    if (g.area < 0) {
+        const int32_t x = g.x1, y = g.y1;
+        g.x1 = g.x2, g.y1 = g.y2;
+        g.x2 = x, g.y2 = y;
+        g.area = -g.area;
+        g.second = 2, g.third = 1;
+    }
+    g.reciprocal = all_short(&g) ? INT32_MAX / g.area : 0;
+    g.to_x = 8 - a->x;
+    g.to_y = 8 - a->y;
+    return g;
+}
+
+static light_plane_t plane_on(const light_ground_t *f, const uint8_t value[3]) {
+    const int32_t c1 = value[f->second] - value[0], c2 = value[f->third] - value[0];
+    const gradient_t g = f->reciprocal ? gradient_small(c1, c2, f->x1, f->y1, f->x2, f->y2, f->reciprocal, 27)
+                                       : gradient_exact(c1, c2, f->x1, f->y1, f->x2, f->y2, f->area, 27);
+    const uint32_t at_corner = ((uint32_t)value[0] + 64u) << 23 | 1u << 22, dx = (uint32_t)g.dx, dy = (uint32_t)g.dy;
+    return (light_plane_t){at_corner + (uint32_t)gradient_part(g, f->to_x & 15, f->to_y & 15) + dx * (uint32_t)(f->to_x >> 4) +
+                               dy * (uint32_t)(f->to_y >> 4),
+                           dx, dy};
 }
 
 light_plane_t light_plane(const surface_corner_t corner[3], const uint8_t value[3]) {
-    const vertex_t *a = &corner[0].at, *b = &corner[1].at, *c = &corner[2].at;
-    int32_t x1 = b->x - a->x, y1 = b->y - a->y, x2 = c->x - a->x, y2 = c->y - a->y;
-    int32_t c1 = value[1] - value[0], c2 = value[2] - value[0];
-    int32_t area = x2 * y1 - x1 * y2; /* below 2^31 in the guard band */
-    if (area < 0) {
-        const int32_t x = x1, y = y1, v = c1;
-        x1 = x2, y1 = y2, c1 = c2;
-        x2 = x, y2 = y, c2 = v;
-        area = -area;
-    }
-    const gradient_t g = all_short(x1, y1, x2, y2) ? gradient_small(c1, c2, x1, y1, x2, y2, INT32_MAX / area, 27)
-                                                   : gradient_exact(c1, c2, x1, y1, x2, y2, area, 27);
-    const int32_t to_x = 8 - a->x, to_y = 8 - a->y;
-    const uint32_t at_corner = ((uint32_t)value[0] + 64u) << 23 | 1u << 22;
-    return (light_plane_t){at_corner + (uint32_t)gradient_part(g, to_x & 15, to_y & 15) + (uint32_t)g.dx * (uint32_t)(to_x >> 4) +
-                               (uint32_t)g.dy * (uint32_t)(to_y >> 4),
-                           (uint32_t)g.dx, (uint32_t)g.dy};
+    const light_ground_t ground = ground_of(corner);
+    return plane_on(&ground, value);
 }
 
 unsigned light_make(surface_t *surface, const surface_face_t *face, uint8_t factor[3]) {
@@ -71,12 +91,14 @@ unsigned light_make(surface_t *surface, const surface_face_t *face, uint8_t fact
         alpha[i] = face->tinted ? face->corner[corner].attributes.colour[3] : 255;
         if (alpha[i] != 255) { varies |= LIGHT_ALPHA; }
     }
+    light_ground_t ground = {0};
+    if (varies) { ground = ground_of(face->corner); }
     for (unsigned c = 0; c < 3; c++) {
         factor[c] = varies & LIGHT_CHANNELS ? 255 : value[c][0];
-        if (varies & LIGHT_CHANNELS) { surface->channel[c] = light_plane(face->corner, value[c]); }
+        if (varies & LIGHT_CHANNELS) { surface->channel[c] = plane_on(&ground, value[c]); }
     }
-    if (varies & LIGHT_HIGHLIGHT) { surface->channel[LIGHT_HIGHLIGHT_CHANNEL] = light_plane(face->corner, value[3]); }
-    if (varies & LIGHT_ALPHA) { surface->channel[LIGHT_ALPHA_CHANNEL] = light_plane(face->corner, alpha); }
+    if (varies & LIGHT_HIGHLIGHT) { surface->channel[LIGHT_HIGHLIGHT_CHANNEL] = plane_on(&ground, value[3]); }
+    if (varies & LIGHT_ALPHA) { surface->channel[LIGHT_ALPHA_CHANNEL] = plane_on(&ground, alpha); }
     return varies;
 }
 
