@@ -101,9 +101,9 @@ typedef enum tuile_blend {
 } tuile_blend_t;
 
 typedef enum tuile_material_flags {
-    TUILE_MATERIAL_TWO_SIDED = 1,      /* back faces are seen too, lit as front faces */
-    TUILE_MATERIAL_BILINEAR = 2,       /* texels are interpolated, else the nearest one is taken */
-    TUILE_MATERIAL_UNLIT = 4,          /* colour and texture as they are */
+    TUILE_MATERIAL_TWO_SIDED = 1, /* back faces are seen too, lit as front faces */
+    TUILE_MATERIAL_BILINEAR = 2,  /* texels are interpolated, else the nearest one is taken */
+    TUILE_MATERIAL_UNLIT = 4,     /* colour and texture as they are */
     TUILE_MATERIAL_VERTEX_COLOURS = 8, /* the vertex colours of the model take the place of `colour`, which is their mean */
     TUILE_MATERIAL_REPLACED = 16, /* by its texture: `colour` is what faces have where textures are not drawn, and else white */
 } tuile_material_flags_t;
@@ -113,8 +113,8 @@ typedef enum tuile_material_flags {
 /* What a face is made of. A face is translucent, and drawn after all others, back to front, if its material has an alpha below 255
  * or a blend other than OVER, or its texture has alpha or a key, or its model has vertex colours with alpha. */
 typedef struct tuile_material {
-    uint8_t colour[3];   /* red, green, blue; multiplied by the texture and the vertex colour */
-    uint8_t alpha;       /* 255: opaque */
+    uint8_t colour[3]; /* red, green, blue; multiplied by the texture and the vertex colour */
+    uint8_t alpha;     /* 255: opaque */
     uint8_t emission[3]; /* added to the light: 255 = 1.0 */
     uint8_t specular;    /* the highlight's level, 255 = 1.0; 0: none. White, over texture and colour; with TUILE_FLAT a part of
                             the light */
@@ -139,9 +139,9 @@ typedef struct tuile_model {
     uint16_t radius;
     uint16_t flags;
     const uint8_t *positions, *normals, *clusters, *faces, *face_normals, *materials, *source;
-    const uint8_t *fractions;                                            /* NULL: none */
-    const uint8_t *tree;                                                 /* NULL: none */
-    const uint8_t *texcoords, *colours, *textures;                       /* NULL: none */
+    const uint8_t *fractions; /* NULL: none */
+    const uint8_t *tree;      /* NULL: none */
+    const uint8_t *texcoords, *colours, *textures; /* NULL: none */
     const uint8_t *morph_positions, *morph_normals, *morph_face_normals; /* the second key frame; NULL: none */
     uint16_t texture_count;
     uint32_t tree_words;
@@ -173,13 +173,12 @@ typedef struct tuile_pose {
 typedef struct tuile_instance {
     const tuile_model_t *model;
     tuile_pose_t pose;
-    bool two_sided;                    /* draw back faces too, lit as front faces */
+    bool two_sided; /* draw back faces too, lit as front faces */
     const tuile_material_t *materials; /* material_count of them in the place of the model's own; NULL: the model's. Without
                                           config.effects a scene has 256 materials at most, those of a model counted once for each
                                           array in their place; with SURFACES there is no limit. A texture that the
                                           model does not have is none; fields out of range are TUILE_ERROR_ARGUMENT */
-    uint16_t
-        morph; /* how far towards the second key frame, 0 ... TUILE_MORPH_ONE; 0 for models without one. See TUILE_MORPH_BYTES */
+    uint16_t morph; /* how far towards the second key frame, 0 ... TUILE_MORPH_ONE; 0 for models without one. See TUILE_MORPH_BYTES */
 } tuile_instance_t;
 
 #define TUILE_MORPH_ONE 32768u
@@ -277,22 +276,22 @@ typedef struct tuile_scene {
 typedef enum tuile_format {
     TUILE_RGB565_BE = 0, /* 2 bytes a pixel, high byte first: what MIPI DCS panels take */
     TUILE_RGB565_LE = 1,
-    TUILE_FACE_IDS = 2,   /* 4 bytes a pixel, a native uint32_t: 0 = background, else 1 + face index counted through the
-                             instances in order (of each, its model's face order); translucent faces count as opaque */
-    TUILE_RGB444 = 3,     /* 12 bits: two pixels in 3 bytes, R1G1 B1R2 G2B2; tiles are an even number of pixels wide */
-    TUILE_RGB666 = 4,     /* 3 bytes, each colour in the upper 6 bits of one */
-    TUILE_RGB332 = 5,     /* 1 byte */
-    TUILE_GREY8 = 6,      /* 1 byte of luminance */
-    TUILE_GREY4 = 7,      /* 4 bits, the left one of two pixels in the high half; tiles are an even number of pixels wide */
+    TUILE_FACE_IDS = 2, /* 4 bytes a pixel, a native uint32_t: 0 = background, else 1 + face index counted through the
+                           instances in order (of each, its model's face order); translucent faces count as opaque */
+    TUILE_RGB444 = 3,   /* 12 bits: two pixels in 3 bytes, R1G1 B1R2 G2B2; tiles are an even number of pixels wide */
+    TUILE_RGB666 = 4,   /* 3 bytes, each colour in the upper 6 bits of one */
+    TUILE_RGB332 = 5,   /* 1 byte */
+    TUILE_GREY8 = 6,    /* 1 byte of luminance */
+    TUILE_GREY4 = 7,    /* 4 bits, the left one of two pixels in the high half; tiles are an even number of pixels wide */
     TUILE_MONO_PAGES = 8, /* 1 bit: a byte is 8 pixels below one another, bit 0 on top, bytes run along the row; tiles are a
                              multiple of 8 high */
     TUILE_MONO_ROWS = 9,  /* 1 bit: a byte is 8 pixels beside one another, bit 7 left; tiles are a multiple of 8 wide */
 } tuile_format_t;
 #define TUILE_FORMAT_COUNT 10
 
-/* What beside white directional light, flat or Gouraud, on opaque faces a renderer is laid out for: or-ed. Without SURFACES
- * textures, vertex colours, emission and highlights of models are left out and faces have the colours of their materials. Without
- * LAYERS translucent faces are drawn as opaque ones. */
+/* What beside white directional light, flat or Gouraud, on opaque faces a renderer is laid out for: or-ed. Without SURFACES textures,
+ * vertex colours, emission and highlights of models are left out and faces have the colours of their materials. Without LAYERS
+ * translucent faces are drawn as opaque ones. */
 typedef enum tuile_effects {
     TUILE_SURFACES = 1, /* textures, vertex colours, coloured and point lights, highlights, emission, fog */
     TUILE_LAYERS = 2,   /* translucent faces, lines, sprites, wireframes; brings SURFACES with it */
@@ -316,10 +315,10 @@ typedef enum tuile_edges {
 
 /* How textures are drawn, whatever their materials say; for study and for comparison. Or-ed. */
 typedef enum tuile_texturing {
-    TUILE_TEXTURE_AFFINE = 1,  /* without perspective correction */
-    TUILE_TEXTURE_NEAREST = 2, /* no interpolation between texels */
-    TUILE_TEXTURE_NO_MIPS = 4, /* level 0 only */
-    TUILE_TEXTURE_OFF = 8,     /* colours of materials only */
+    TUILE_TEXTURE_AFFINE = 1,   /* without perspective correction */
+    TUILE_TEXTURE_NEAREST = 2,  /* no interpolation between texels */
+    TUILE_TEXTURE_NO_MIPS = 4,  /* level 0 only */
+    TUILE_TEXTURE_OFF = 8,      /* colours of materials only */
 } tuile_texturing_t;
 
 /* Hidden-surface methods. They show the same face at every pixel, but for pixels where two faces are within one step of depth. */
@@ -397,9 +396,9 @@ typedef struct tuile_config {
     uint8_t aa;                       /* tuile_aa_t. Width and height times the samples along them are at most TUILE_SAMPLES_MAX */
     uint8_t edges;                    /* tuile_edges_t */
     uint8_t texturing;                /* tuile_texturing_t, or-ed */
-    bool dither;              /* ordered, by an 8x8 matrix that is fixed to the window; RGB and grey formats, always for mono */
-    uint8_t edge_colour[3];   /* of edges */
-    tuile_overlay_fn overlay; /* called for each tile when its faces are drawn; NULL = none */
+    bool dither;                      /* ordered, by an 8x8 matrix that is fixed to the window; RGB and grey formats, always for mono */
+    uint8_t edge_colour[3];           /* of edges */
+    tuile_overlay_fn overlay;         /* called for each tile when its faces are drawn; NULL = none */
     void *overlay_context;
 } tuile_config_t;
 
@@ -407,17 +406,16 @@ typedef struct tuile_config {
 
 /* Constant expressions for the size of the block, in bytes. */
 /* Tile bytes as they go out. */
-#define TUILE_WIRE_BYTES(format, w, h)                                                         \
-    ((format) == TUILE_FACE_IDS                            ? (size_t)4 * (w) * (h)             \
-     : (format) == TUILE_RGB666                            ? (size_t)3 * (w) * (h)             \
-     : (format) == TUILE_RGB444                            ? ((size_t)3 * (w) * (h) + 1u) / 2u \
-     : (format) == TUILE_RGB332 || (format) == TUILE_GREY8 ? (size_t)(w) * (h)                 \
-     : (format) == TUILE_GREY4                             ? (((size_t)(w) + 1u) / 2u) * (h)   \
-     : (format) == TUILE_MONO_PAGES                        ? (size_t)(w) * (((h) + 7u) / 8u)   \
-     : (format) == TUILE_MONO_ROWS                         ? (((size_t)(w) + 7u) / 8u) * (h)   \
-                                                           : (size_t)2 * (w) * (h))
-/* Bytes of a sample while a tile is drawn: 16 bits of colour in the wire's own steps or of luminance; 4 where colours are kept
- * whole. */
+#define TUILE_WIRE_BYTES(format, w, h)                                                                       \
+    ((format) == TUILE_FACE_IDS                                  ? (size_t)4 * (w) * (h)                      \
+     : (format) == TUILE_RGB666                                  ? (size_t)3 * (w) * (h)                      \
+     : (format) == TUILE_RGB444                                  ? ((size_t)3 * (w) * (h) + 1u) / 2u          \
+     : (format) == TUILE_RGB332 || (format) == TUILE_GREY8       ? (size_t)(w) * (h)                          \
+     : (format) == TUILE_GREY4                                   ? (((size_t)(w) + 1u) / 2u) * (h)            \
+     : (format) == TUILE_MONO_PAGES                              ? (size_t)(w) * (((h) + 7u) / 8u)            \
+     : (format) == TUILE_MONO_ROWS                               ? (((size_t)(w) + 7u) / 8u) * (h)            \
+                                                                 : (size_t)2 * (w) * (h))
+/* Bytes of a sample while a tile is drawn: 16 bits of colour in the wire's own steps or of luminance; 4 where colours are kept whole. */
 #define TUILE_SAMPLE_BYTES(format, dither) \
     ((format) == TUILE_FACE_IDS || (format) == TUILE_RGB666 || ((dither) && ((format) <= TUILE_RGB332)) ? 4u : 2u)
 /* Does a tile become wire bytes in a step of its own? Else it is drawn in them. */
@@ -431,17 +429,17 @@ typedef struct tuile_config {
  * and there are six: n * 1.5^6 vertices of 8 bytes. */
 #define TUILE_CORNERS_BYTES(corners) ((corners) > 4u ? 96u * (size_t)(corners) : 0u)
 /* State, tile buffers, their depth, one shading ramp and the table of tile rows. */
-#define TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers)              \
-    (TUILE_STATE_BYTES + TUILE_ALIGN64(2u * (tile_w) * (tile_h)) +              \
-     (buffers)*TUILE_ALIGN64(TUILE_WIRE_BYTES(format, tile_w, tile_h)) + 128u + \
+#define TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers)                    \
+    (TUILE_STATE_BYTES + TUILE_ALIGN64(2u * (tile_w) * (tile_h)) +                    \
+     (buffers)*TUILE_ALIGN64(TUILE_WIRE_BYTES(format, tile_w, tile_h)) + 128u +       \
      TUILE_ALIGN8(2u * (((height) + (tile_h)-1u) / (tile_h))))
 /* What more than that a renderer takes with effects, anti-aliasing, dithering or a format that is resolved: to be added. `samples`
  * is 1, 2 or 4, along one axis. */
 #define TUILE_SAMPLE_COUNT(tile_w, tile_h, samples) ((size_t)(tile_w) * (tile_h) * (samples) * (samples))
 #define TUILE_DEPTH_EXTRA_BYTES(tile_w, tile_h, samples) \
     (TUILE_ALIGN64(2u * TUILE_SAMPLE_COUNT(tile_w, tile_h, samples)) - TUILE_ALIGN64(2u * (tile_w) * (tile_h)))
-#define TUILE_WORKING_BYTES(tile_w, tile_h, format, samples, dither)                                       \
-    (TUILE_RESOLVES(format, samples, dither)                                                               \
+#define TUILE_WORKING_BYTES(tile_w, tile_h, format, samples, dither)                                    \
+    (TUILE_RESOLVES(format, samples, dither)                                                            \
          ? TUILE_ALIGN64(TUILE_SAMPLE_BYTES(format, dither) * TUILE_SAMPLE_COUNT(tile_w, tile_h, samples)) \
          : (size_t)0)
 #define TUILE_NUMBER_BYTES(tile_w, tile_h, samples) TUILE_ALIGN64(2u * TUILE_SAMPLE_COUNT(tile_w, tile_h, samples))
@@ -457,16 +455,17 @@ typedef struct tuile_config {
  * all faces of one tile at once: without it tuile_next returns TUILE_ERROR_MEMORY. */
 #define TUILE_LEAST_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices) \
     (TUILE_FIXED_BYTES(height, tile_w, tile_h, format, buffers) + 8u * (cluster_vertices) + TUILE_CLIP_BYTES)
-/* The same with effects (tuile_effects_t, or-ed), anti-aliasing (tuile_aa_t) and dithering. Colours that are kept whole are shaded
- * as with TUILE_SURFACES. */
+/* The same with effects (tuile_effects_t, or-ed), anti-aliasing (tuile_aa_t) and dithering. Colours that are kept whole are shaded as
+ * with TUILE_SURFACES. */
 #define TUILE_DEFERS(format, effects, dither) \
     ((effects) != 0 || ((format) != TUILE_FACE_IDS && TUILE_SAMPLE_BYTES(format, dither) == 4u))
-#define TUILE_BLOCK_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices, effects, aa, dither)                    \
-    (TUILE_LEAST_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices) +                                          \
-     TUILE_DEPTH_EXTRA_BYTES(tile_w, tile_h, 1u << (aa)) + TUILE_WORKING_BYTES(tile_w, tile_h, format, 1u << (aa), dither) + \
-     (TUILE_DEFERS(format, effects, dither)                                                                                  \
-          ? TUILE_NUMBER_BYTES(tile_w, tile_h, 1u << (aa)) + TUILE_SURFACE_BYTES(cluster_vertices)                           \
-          : (size_t)0) +                                                                                                     \
+#define TUILE_BLOCK_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices, effects, aa, dither)          \
+    (TUILE_LEAST_BYTES(height, tile_w, tile_h, format, buffers, cluster_vertices) +                                \
+     TUILE_DEPTH_EXTRA_BYTES(tile_w, tile_h, 1u << (aa)) +                                                         \
+     TUILE_WORKING_BYTES(tile_w, tile_h, format, 1u << (aa), dither) +                                             \
+     (TUILE_DEFERS(format, effects, dither)                                                                        \
+          ? TUILE_NUMBER_BYTES(tile_w, tile_h, 1u << (aa)) + TUILE_SURFACE_BYTES(cluster_vertices)                 \
+          : (size_t)0) +                                                                                           \
      ((effects)&TUILE_LAYERS ? TUILE_LAYER_BYTES(tile_w, 1u << (aa)) : (size_t)0))
 
 /* What a frame with an instance whose morph is not 0 takes besides: to be added. vertices and faces: of the largest cluster of the
@@ -498,8 +497,8 @@ int tuile_begin(tuile_t *renderer, const tuile_scene_t *scene);
 
 typedef struct tuile_tile {
     uint16_t x, y, width, height; /* rectangle in the window, cut to it */
-    const uint8_t *bytes; /* width * height pixels, row by row without gaps, in wire order. GREY4 and MONO_ROWS: rows begin on
-                             whole bytes, MONO_PAGES: pages of 8 rows follow one another; bits beyond the tile are 0 */
+    const uint8_t *bytes;         /* width * height pixels, row by row without gaps, in wire order. GREY4 and MONO_ROWS: rows begin on
+                                     whole bytes, MONO_PAGES: pages of 8 rows follow one another; bits beyond the tile are 0 */
     uint32_t size_bytes;
 } tuile_tile_t;
 
@@ -530,23 +529,23 @@ typedef struct tuile_stats {
     uint32_t faces_resumed;        /* set up again because there was no room to carry their state */
     uint32_t passes;               /* over the model, failed attempts included */
     uint32_t tiles;
-    uint32_t tiles_narrow;      /* that took a pass of their own, for lack of memory */
-    uint32_t active_max;        /* scan-line: most faces on one line of a tile */
-    uint32_t windows;           /* Warnock: windows looked at, the tiles themselves among them, */
-    uint32_t windows_depth;     /* the greatest number of divisions that led to one, */
-    uint32_t windows_pixels;    /* how many were one pixel in the end and decided as such, */
-    uint32_t windows_waiting;   /* and the most that were on the stack at once */
-    uint32_t compared;          /* painter: pairs of faces compared, of those whose boxes and depths overlap, */
-    uint32_t moved;             /* faces moved before another, */
-    uint32_t splits;            /* and cut because they cross or overlap in a cycle */
-    uint32_t nodes;             /* tree: nodes visited */
-    uint32_t instances_sorted;  /* tree: instances that no plane separates from one another, drawn by the painter's method */
+    uint32_t tiles_narrow;     /* that took a pass of their own, for lack of memory */
+    uint32_t active_max;       /* scan-line: most faces on one line of a tile */
+    uint32_t windows;          /* Warnock: windows looked at, the tiles themselves among them, */
+    uint32_t windows_depth;    /* the greatest number of divisions that led to one, */
+    uint32_t windows_pixels;   /* how many were one pixel in the end and decided as such, */
+    uint32_t windows_waiting;  /* and the most that were on the stack at once */
+    uint32_t compared;         /* painter: pairs of faces compared, of those whose boxes and depths overlap, */
+    uint32_t moved;            /* faces moved before another, */
+    uint32_t splits;           /* and cut because they cross or overlap in a cycle */
+    uint32_t nodes;            /* tree: nodes visited */
+    uint32_t instances_sorted; /* tree: instances that no plane separates from one another, drawn by the painter's method */
     uint32_t instances;         /* looked at */
     uint32_t instances_outside; /* dropped whole: outside the window, near or far plane */
-    uint32_t glyphs_missing;    /* overlay: boxes drawn for characters that a font has not */
-    uint32_t size_bytes;        /* the block */
-    uint32_t least_bytes;       /* the least block for this configuration */
-    uint32_t peak_bytes;        /* the block that would have given the same passes */
+    uint32_t glyphs_missing;   /* overlay: boxes drawn for characters that a font has not */
+    uint32_t size_bytes;       /* the block */
+    uint32_t least_bytes;      /* the least block for this configuration */
+    uint32_t peak_bytes;       /* the block that would have given the same passes */
 } tuile_stats_t;
 
 /* Ends a frame, complete or not. stats may be NULL. */
