@@ -5,7 +5,7 @@
 
 #include "textured.h"
 
-#include "triangle_rows.h"
+#include "triangle_set_up.h"
 
 TUILE_INLINE uint64_t map_at(const textured_map_t *map, int32_t x, int32_t y) {
     return map->v + map->dx * (uint64_t)(int64_t)x + map->dy * (uint64_t)(int64_t)y;
@@ -38,7 +38,8 @@ TUILE_INLINE void span_textured(const textured_t *textured, uint16_t *depth, ptr
     }
 }
 
-/* As triangle_rows; both numbers are stepped from row to row, which saves what entering a row by its number would cost. */
+/* Row by row, as fill/triangle.c does; both numbers are stepped from row to row, which saves what entering a row by its number
+ * would cost. */
 TUILE_INLINE void fill_rows(textured_t *textured, const raster_tile_t *tile, ptrdiff_t samples, bool clamp, bool paletted,
                             bool swap) {
     triangle_t *t = &textured->triangle;

@@ -16,8 +16,12 @@
 
 #include "triangle.h"
 
-#include "triangle_rows.h"
 #include "triangle_set_up.h"
+
+TUILE_NOINLINE void triangle_bend(triangle_t *t) {
+    side_start(t, t->bends_left, t->mid_x, t->mid_y, t->low_x, t->low_y, t->row_mid);
+    t->row_mid = t->head.row_end;
+}
 
 TUILE_NOINLINE void triangle_start(triangle_t *triangle, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
                                    int32_t first_row, bool gouraud) {
@@ -60,47 +64,75 @@ TUILE_NOINLINE void triangle_paint_start(triangle_t *triangle, const vertex_t *v
     triangle_set_up(triangle, v0, v1, v2, first_row, false, gouraud);
 }
 
-/* How a span is drawn: constants in each loop. */
-typedef struct span_style {
-    span_kind_t kind;
-    bool tested, last;
-    const uint16_t *ramp;
-} span_style_t;
-
-TUILE_INLINE void span_styled(const triangle_t *t, const raster_tile_t *tile, const triangle_span_t *span, const void *context) {
-    const span_style_t *style = context;
-    const uint64_t dx = t->dx, shade = span->shade;
-    const int32_t at = span->at, from = span->from, count = span->count;
-    const span_kind_t kind = style->kind;
-    if (!style->tested) {
-        if (kind == SPAN_GOURAUD) {
-            paint_gouraud((uint16_t *)tile->colour + at, count, (uint32_t)shade + (uint32_t)dx * (uint32_t)from, (uint32_t)dx,
-                          style->ramp);
-        } else if (kind == SPAN_FLAT) {
-            paint_flat((uint16_t *)tile->colour + at, count, (uint16_t)t->value);
-        } else {
-            paint_ids((uint32_t *)tile->colour + at, count, t->value);
-        }
-    } else {
-        uint16_t *depth = tile->depth + at;
-        if (kind == SPAN_GOURAUD) {
-            span_gouraud(depth, (uint16_t *)tile->colour + at, count, shade + dx * (uint64_t)(int64_t)from, dx, style->ramp,
-                         style->last);
-        } else {
-            const uint32_t z = (uint32_t)(shade >> 32) + (uint32_t)(dx >> 32) * (uint32_t)from;
-            if (kind == SPAN_FLAT) {
-                span_flat(depth, (uint16_t *)tile->colour + at, count, z, (uint32_t)(dx >> 32), (uint16_t)t->value, style->last);
-            } else {
-                span_ids(depth, (uint32_t *)tile->colour + at, count, z, (uint32_t)(dx >> 32), t->value, style->last);
-            }
-        }
-    }
-}
-
+/* tested, kind, last, clamp and is_short are constants where this is called, so that each combination gets a loop of its own. `at`
+ * is the index of the tile's pixel for x = 0 of the window, which may be negative. */
 TUILE_INLINE void fill_rows(triangle_t *t, const raster_tile_t *tile, bool tested, bool is_short, bool clamp, span_kind_t kind,
                             bool last, const uint16_t *ramp) {
-    const span_style_t style = {kind, tested, last, ramp};
-    triangle_rows(t, tile, is_short, clamp, span_styled, &style);
+    const int32_t end = t->head.row_end < tile->bottom ? t->head.row_end : tile->bottom;
+    const int32_t stride = tile->stride_px, tile_left = tile->left, tile_right = tile->right;
+    const uint64_t dx = t->dx, dy = t->dy;
+    int32_t row = t->row, at = (row - tile->top) * stride - tile_left;
+    uint64_t shade = t->shade;
+
+    for (;;) {
+        int32_t rows = (t->row_mid < end ? t->row_mid : end) - row;
+        short_edge_t sa = t->side.brief.a, sb = t->side.brief.b;
+        edge_t fa = t->side.full.a, fb = t->side.full.b;
+        row += rows;
+        do {
+            int32_t from = is_short ? short_edge_pixel(sa.x) : fa.x, to = is_short ? short_edge_pixel(sb.x) : fb.x;
+            if (clamp) {
+                from = from > tile_left ? from : tile_left;
+                to = to < tile_right ? to : tile_right;
+            }
+            to -= from;
+            if (to > 0 && !tested) {
+                if (kind == SPAN_GOURAUD) {
+                    paint_gouraud((uint16_t *)tile->colour + (at + from), to, (uint32_t)shade + (uint32_t)dx * (uint32_t)from,
+                                  (uint32_t)dx, ramp);
+                } else if (kind == SPAN_FLAT) {
+                    paint_flat((uint16_t *)tile->colour + (at + from), to, (uint16_t)t->value);
+                } else {
+                    paint_ids((uint32_t *)tile->colour + (at + from), to, t->value);
+                }
+            } else if (to > 0) {
+                uint16_t *depth = tile->depth + (at + from);
+                if (kind == SPAN_GOURAUD) {
+                    span_gouraud(depth, (uint16_t *)tile->colour + (at + from), to, shade + dx * (uint64_t)(int64_t)from, dx, ramp,
+                                 last);
+                } else {
+                    const uint32_t z = (uint32_t)(shade >> 32) + (uint32_t)(dx >> 32) * (uint32_t)from;
+                    if (kind == SPAN_FLAT) {
+                        span_flat(depth, (uint16_t *)tile->colour + (at + from), to, z, (uint32_t)(dx >> 32), (uint16_t)t->value,
+                                  last);
+                    } else {
+                        span_ids(depth, (uint32_t *)tile->colour + (at + from), to, z, (uint32_t)(dx >> 32), t->value, last);
+                    }
+                }
+            }
+            if (is_short) {
+                sa.x = (int32_t)((uint32_t)sa.x + (uint32_t)sa.slope); /* may wrap behind the last row */
+                sb.x = (int32_t)((uint32_t)sb.x + (uint32_t)sb.slope);
+            } else {
+                edge_step(&fa);
+                edge_step(&fb);
+            }
+            shade += dy;
+            at += stride;
+        } while (--rows);
+        if (row >= t->head.row_end) { break; }
+        if (is_short) {
+            t->side.brief.a = sa;
+            t->side.brief.b = sb;
+        } else {
+            t->side.full.a = fa;
+            t->side.full.b = fb;
+        }
+        if (row == t->row_mid) { triangle_bend(t); }
+        if (row >= end) { break; }
+    }
+    t->row = (int16_t)row;
+    t->shade = shade;
 }
 
 TUILE_NOINLINE void triangle_fill_gouraud(triangle_t *t, const raster_tile_t *tile, const uint16_t *ramp) {

@@ -3,7 +3,19 @@
 #define TUILE_FILL_TRIANGLE_SET_UP_H
 
 #include "gradient.h"
-#include "triangle_rows.h"
+#include "triangle.h"
+
+/* Sets one side from (x0, y0) to (x1, y1) at a row. */
+TUILE_INLINE void side_start(triangle_t *triangle, bool left, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row) {
+    if (triangle->is_short) {
+        *(left ? &triangle->side.brief.a : &triangle->side.brief.b) = short_edge_start(x0, y0, x1, y1, row);
+    } else {
+        edge_start(left ? &triangle->side.full.a : &triangle->side.full.b, x0, y0, x1, y1, row);
+    }
+}
+
+/* The side that ends at the bend goes on below it. */
+void triangle_bend(triangle_t *t);
 
 #define TRIANGLE_SMALL_DEPTH (1 << 17)
 
