@@ -319,6 +319,7 @@ int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     uint8_t *start = t->arena + TUILE_ALIGN8(ramps * ramp);
     t->keep = t->immediate_only = false;
     t->textured_any = false;
+    t->textured_instance = UINT16_MAX;
     t->textured = t->numbers != NULL && t->config.edges != TUILE_EDGES_HIDDEN && t->config.method == TUILE_ZBUFFER &&
                   t->config.tie == TUILE_TIE_FIRST && t->pixel_kind <= PIXEL_RGB565_LE && scene->fog.kind == TUILE_FOG_NONE;
     if (t->method->begin && (error = t->method->begin(t, &start)) != TUILE_OK) { return error; }

@@ -214,7 +214,8 @@ typedef struct tuile {
     bool textured;
     bool textured_any;        /* some face of the frame was */
     uint16_t textured_source; /* what was asked for last: a source of vertices, UINT16_MAX: none; and a material */
-    uint16_t textured_number;
+    uint16_t textured_instance, textured_number;
+    bool textured_fits;
     textured_material_t textured_last;
     const int16_t *textured_texcoords;
     bool numbered; /* some face of the tile was drawn as a number */

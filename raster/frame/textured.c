@@ -9,23 +9,30 @@
 #include "../fill/triangle_set_up.h"
 #include "../surface/textured.h"
 
+/* Another material: textured_last, and the level that its faces want, go with it. */
+static void material_open(tuile_t *t, const tuile_instance_t *instance, uint16_t number, uint8_t material) {
+    const tuile_model_t *model = instance->model;
+    const tuile_material_t m = frame_instance_material(instance, material);
+    t->textured_instance = number;
+    t->textured_number = material;
+    t->textured_last.fit = m.texture < model->texture_count && model->texcoords != NULL && model->colours == NULL;
+    if (!t->textured_last.fit) { return; }
+    const tuile_texture_t texture = tuile_model_texture(model, m.texture);
+    textured_material_open(&t->textured_last, &m, &texture, t->config.texturing, t->camera.projection == TUILE_PERSPECTIVE);
+}
+
 /* Another source of vertices, or another material of it. */
 static TUILE_NOINLINE void source_open(tuile_t *t, const record_t *record, uint16_t at) {
     const source_slot_t *source = (const source_slot_t *)(const void *)&t->vertices[at];
     const tuile_instance_t *instance = &t->scene->instances[source->instance];
-    const tuile_model_t *model = instance->model;
-    const tuile_material_t m = frame_instance_material(instance, record->material);
-    t->textured_number = record->material;
-    t->textured_source = at;
-    t->textured_last.fit = false;
-    if (m.texture >= model->texture_count || model->texcoords == NULL || model->colours != NULL || source->colours != 0 ||
-        source->attributes != 0) {
-        return;
+    if (t->textured_instance != source->instance || t->textured_number != record->material) {
+        material_open(t, instance, source->instance, record->material);
     }
-    const tuile_texture_t texture = tuile_model_texture(model, m.texture);
-    textured_material_open(&t->textured_last, &m, &texture, t->config.texturing, t->camera.projection == TUILE_PERSPECTIVE);
-    t->textured_texcoords =
-        (const int16_t *)(const void *)model->texcoords + 2 * ((ptrdiff_t)source->first_vertex - at - (ptrdiff_t)SOURCE_SLOTS);
+    t->textured_source = at;
+    t->textured_fits = t->textured_last.fit && source->colours == 0 && source->attributes == 0;
+    if (!t->textured_fits) { return; }
+    t->textured_texcoords = (const int16_t *)(const void *)instance->model->texcoords +
+                            2 * ((ptrdiff_t)source->first_vertex - at - (ptrdiff_t)SOURCE_SLOTS);
 }
 
 TUILE_INLINE texture_corner_t corner_at(const vertex_t *vertex, const int16_t *texcoords) {
@@ -37,7 +44,7 @@ bool textured_start(tuile_t *t, textured_t *textured, const record_t *record, in
     if (TUILE_UNLIKELY(t->textured_source != extra->source || t->textured_number != record->material)) {
         source_open(t, record, extra->source);
     }
-    if (!t->textured_last.fit) { return false; }
+    if (!t->textured_fits) { return false; }
     const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
     triangle_t *triangle = &textured->triangle;
     if (TUILE_LIKELY(t->config.shade == TUILE_GOURAUD)) {
