@@ -297,7 +297,7 @@ static int set_up(render_t *r) {
 
     r->config.width = r->display.width;
     r->config.height = r->display.height;
-    render_layer_apply(&r->layer, &r->config);
+    if (render_layer_apply(&r->layer, &r->config) != 0) { return EXIT_FAILURE; }
     if (has_translucent(r)) { r->config.effects |= TUILE_LAYERS; }
     if (render_format_apply(&r->format, r->rotate, &r->config) != 0) { return EXIT_FAILURE; }
     render_light_apply(&r->light, &r->config);
@@ -331,6 +331,7 @@ static int write_ids(render_t *r, unsigned frame) {
     void *block = NULL;
     tuile_t *renderer = NULL;
     tuile_config_t config = r->config;
+    tuile_scene_t scene = r->view.scene;
     size_t memory_bytes = 0;
     const size_t width = config.width, pixels = width * config.height;
 
@@ -341,10 +342,12 @@ static int write_ids(render_t *r, unsigned frame) {
     config.dither = false;
     config.overlay = NULL;
     config.effects = 0;
+    config.edges = TUILE_EDGES_NONE;
+    scene.line_count = scene.sprite_count = 0; /* which have no number */
     uint32_t *ids = calloc(pixels, sizeof *ids);
     if (!ids) { return command_fail("out of memory"); }
     int code = open_renderer(&renderer, &block, &config, &r->sizes, &memory_bytes);
-    const int result = code ? 0 : ids_draw(renderer, &r->view.scene, ids);
+    const int result = code ? 0 : ids_draw(renderer, &scene, ids);
     if (result < 0) { code = command_fail("--ids: %s", tuile_error_text(result)); }
     if (code == 0 && output_open(&out, name, &r->error) == 0) {
         for (size_t i = 0; i < pixels; i++) {

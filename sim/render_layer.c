@@ -14,7 +14,8 @@ const char render_layer_usage[] =
     "  --edge-colour RRGGBB     black by default, white without faces\n"
     "  --line X,Y,Z,X,Y,Z[,RRGGBB]   a line in model units, between --near and --far, that faces may hide; up to 64\n"
     "  --smooth-lines           anti-aliased\n"
-    "  --point X,Y,Z[,SIZE[,RRGGBB]]   a disc, SIZE pixels across (5), that faces may hide; up to 64\n";
+    "  --point X,Y,Z[,SIZE[,RRGGBB]]   a disc, SIZE pixels across (5), that faces may hide; up to 64\n"
+    "  --sprite FILE@X,Y,Z,W,H  a PNG or JPEG picture that faces the camera, W x H model units round a point; up to 16\n";
 
 /* RRGGBB to the end of the text. */
 static bool read_colour(const char *text, uint8_t colour[3]) {
@@ -26,7 +27,7 @@ static bool read_colour(const char *text, uint8_t colour[3]) {
     return true;
 }
 
-/* `least` to `most` numbers with commas between, and then, where all are there, perhaps a colour. */
+/* `least` to `most` numbers with commas between, and then, where all are there and colour is not NULL, perhaps a colour. */
 static bool read_numbers(const char *text, double *numbers, unsigned least, unsigned most, uint8_t colour[3]) {
     for (unsigned i = 0; i < most; i++) {
         char *end;
@@ -36,7 +37,7 @@ static bool read_numbers(const char *text, double *numbers, unsigned least, unsi
         if (*end != ',') { return false; }
         text = end + 1;
     }
-    return read_colour(text, colour);
+    return colour && read_colour(text, colour);
 }
 
 static void fail(options_t *options, const char *name, const char *value, const char *wants) {
@@ -76,6 +77,25 @@ static void point_option(render_layer_t *part, options_t *options) {
     point->width = point->height = (q16_16_t)lround(numbers[3] * 65536.0);
 }
 
+static void sprite_option(render_layer_t *part, options_t *options) {
+    const char *value = options_value(options);
+    double numbers[5];
+    if (!value) { return; }
+    if (part->sprite_count == RENDER_SPRITES_MAX) {
+        fail(options, "--sprite", value, "to be there 16 times at most");
+        return;
+    }
+    render_sprite_t *sprite = &part->sprites[part->sprite_count];
+    const char *text = render_image_name(&sprite->image, value);
+    if (!text || !read_numbers(text, numbers, 5, 5, NULL) || numbers[3] <= 0 || numbers[4] <= 0) {
+        fail(options, "--sprite", value, "a file, its centre and a size above 0: FILE@X,Y,Z,W,H");
+        return;
+    }
+    memcpy(sprite->at, numbers, sizeof sprite->at);
+    memcpy(sprite->size, numbers + 3, sizeof sprite->size);
+    part->sprite_count++;
+}
+
 bool render_layer_option(render_layer_t *part, options_t *options, const char *argument) {
     static const char *const blends[] = {"over", "add", "multiply", NULL};
     static const char *const edges[] = {"all", "front", "hidden", "outline", NULL};
@@ -103,18 +123,25 @@ bool render_layer_option(render_layer_t *part, options_t *options, const char *a
         line_option(part, options);
     } else if (strcmp(argument, "--point") == 0) {
         point_option(part, options);
+    } else if (strcmp(argument, "--sprite") == 0) {
+        sprite_option(part, options);
     } else {
         return false;
     }
     return true;
 }
 
-void render_layer_apply(const render_layer_t *part, tuile_config_t *config) {
-    if (part->has_alpha || part->has_blend || part->edges || part->line_count || part->point_count) {
+int render_layer_apply(render_layer_t *part, tuile_config_t *config) {
+    int code = 0;
+    for (unsigned i = 0; code == 0 && i < part->sprite_count; i++) {
+        code = render_image_load(&part->sprites[i].image, "--sprite");
+    }
+    if (part->has_alpha || part->has_blend || part->edges || part->line_count || part->point_count || part->sprite_count) {
         config->effects |= TUILE_LAYERS;
     }
     config->edges = part->edges;
     memcpy(config->edge_colour, part->edge_colour, 3);
+    return code;
 }
 
 bool render_layer_translucent(const tuile_model_t *model, bool plain) {
@@ -136,10 +163,17 @@ bool render_layer_translucent(const tuile_model_t *model, bool plain) {
 static int place(const double *at, size_t count, double unit, q16_16_t *to, sim_error_t *error) {
     for (size_t i = 0; i < count; i++) {
         const double value = at[i] * unit * 65536.0;
-        if (fabs(value) > 2147483647.0) { return sim_fail(error, "--line, --point: %g is too far out", at[i]); }
+        if (fabs(value) > 2147483647.0) { return sim_fail(error, "--line, --point, --sprite: %g is too far out", at[i]); }
         to[i] = (q16_16_t)lround(value);
     }
     return 0;
+}
+
+static void free_materials(render_layer_t *part) {
+    free(part->instances);
+    free(part->materials);
+    part->instances = NULL;
+    part->materials = NULL;
 }
 
 /* Copies of all instances, whose materials differ. */
@@ -149,7 +183,7 @@ static int change_materials(render_layer_t *part, tuile_scene_t *scene, sim_erro
     for (unsigned i = 0; i < scene->instance_count; i++) {
         count += part->given[i].model->material_count;
     }
-    render_layer_free(part);
+    free_materials(part);
     part->instances = malloc((scene->instance_count + 1u) * sizeof *part->instances);
     part->materials = malloc((count + 1) * sizeof *part->materials);
     if (!part->instances || !part->materials) { return sim_fail(error, "out of memory"); }
@@ -169,6 +203,15 @@ static int change_materials(render_layer_t *part, tuile_scene_t *scene, sim_erro
     return 0;
 }
 
+static int place_sprite(const render_sprite_t *sprite, double unit, tuile_sprite_t *to, sim_error_t *error) {
+    q16_16_t size[2] = {0, 0};
+    *to = (tuile_sprite_t){.texture = &sprite->image.texture, .colour = {255, 255, 255}, .alpha = 255};
+    if (place(sprite->at, 3, unit, to->at, error) != 0 || place(sprite->size, 2, unit, size, error) != 0) { return -1; }
+    to->width = size[0];
+    to->height = size[1];
+    return 0;
+}
+
 int render_layer_frame(render_layer_t *part, tuile_scene_t *scene, double unit, sim_error_t *error) {
     for (unsigned i = 0; i < part->line_count; i++) {
         part->lines[i].smooth = part->smooth;
@@ -180,16 +223,19 @@ int render_layer_frame(render_layer_t *part, tuile_scene_t *scene, double unit, 
     for (unsigned i = 0; i < part->point_count; i++) {
         if (place(part->point_at[i], 3, unit, part->points[i].at, error) != 0) { return -1; }
     }
+    for (unsigned i = 0; i < part->sprite_count; i++) {
+        if (place_sprite(&part->sprites[i], unit, &part->points[part->point_count + i], error) != 0) { return -1; }
+    }
     scene->lines = part->lines;
     scene->line_count = part->line_count;
     scene->sprites = part->points;
-    scene->sprite_count = part->point_count;
+    scene->sprite_count = (uint16_t)(part->point_count + part->sprite_count);
     return part->has_alpha || part->has_blend ? change_materials(part, scene, error) : 0;
 }
 
 void render_layer_free(render_layer_t *part) {
-    free(part->instances);
-    free(part->materials);
-    part->instances = NULL;
-    part->materials = NULL;
+    free_materials(part);
+    for (unsigned i = 0; i < part->sprite_count; i++) {
+        render_image_free(&part->sprites[i].image);
+    }
 }

@@ -2,16 +2,12 @@
 
 #include "commands.h"
 #include "font.h"
-#include "input.h"
-#include "mesh/image.h"
-#include "mesh/texels.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define IMAGE_FILE_MAX ((size_t)256 << 20)
 #define PLACE_MOST 32767 /* pixels */
 
 const char render_overlay_usage[] =
@@ -41,12 +37,6 @@ static const char *parse_numbers(const char *text, int32_t *values, unsigned cou
     return text;
 }
 
-static char *copy(const char *text, size_t length) {
-    char *to = calloc(1, length + 1);
-    if (to) { memcpy(to, text, length); }
-    return to;
-}
-
 static bool full(options_t *options, unsigned count, unsigned most) {
     if (count < most) { return false; }
     (void)command_fail("%s: at most %u of them", options->name, most);
@@ -59,7 +49,7 @@ static bool add_text(render_overlay_t *part, options_t *options, const char *val
     if (full(options, part->text_count, RENDER_TEXTS_MAX)) { return false; }
     const char *text = parse_numbers(value, at, 2);
     if (!text || text[-1] != ',' || *text == '\0') { return refuse(options, value, "X,Y,TEXT, like 8,8,Hello"); }
-    char *own = copy(text, strlen(text)), *to = own;
+    char *own = strdup(text), *to = own;
     if (!own) { return refuse(options, value, "more memory"); }
     for (const char *from = own; *from; from++) {
         const bool is_newline = from[0] == '\\' && from[1] == 'n';
@@ -94,11 +84,12 @@ static bool add_gauge(render_overlay_t *part, options_t *options, const char *va
 static bool add_image(render_overlay_t *part, options_t *options, const char *value) {
     int32_t at[2] = {0, 0};
     if (full(options, part->image_count, RENDER_IMAGES_MAX)) { return false; }
-    const char *sign = strrchr(value, '@'), *rest = sign && sign > value ? parse_numbers(sign + 1, at, 2) : NULL;
+    render_placed_image_t *placed = &part->images[part->image_count];
+    const char *numbers = render_image_name(&placed->image, value), *rest = numbers ? parse_numbers(numbers, at, 2) : NULL;
     if (!rest || *rest != '\0' || rest[-1] == ',') { return refuse(options, value, "FILE@X,Y, like logo.png@8,8"); }
-    char *path = copy(value, (size_t)(sign - value));
-    if (!path) { return refuse(options, value, "more memory"); }
-    part->images[part->image_count++] = (render_image_t){.x = at[0], .y = at[1], .path = path};
+    placed->x = at[0];
+    placed->y = at[1];
+    part->image_count++;
     return true;
 }
 
@@ -125,17 +116,6 @@ bool render_overlay_option(render_overlay_t *part, options_t *options, const cha
 
 /* ---- drawing ---- */
 
-static tuile_texture_t texture_of(const mesh_texture_t *from) {
-    return (tuile_texture_t){.texels = from->texels,
-                             .palette = from->palette,
-                             .width = from->width,
-                             .height = from->height,
-                             .format = from->format,
-                             .levels = from->levels,
-                             .flags = from->flags,
-                             .key = from->key};
-}
-
 static void draw_fps(const render_overlay_t *part, tuile_canvas_t *canvas) {
     const int32_t width = tuile_text_width(&part->font, "0000.0 fps") + 4, height = part->font.height + 3;
     tuile_draw_rectangle(canvas, canvas->width - width, 0, width, height, TUILE_ARGB(128, 0, 0, 0));
@@ -145,8 +125,8 @@ static void draw_fps(const render_overlay_t *part, tuile_canvas_t *canvas) {
 static void draw(void *context, tuile_canvas_t *canvas) {
     const render_overlay_t *part = context;
     for (unsigned i = 0; i < part->image_count; i++) {
-        const tuile_texture_t texture = texture_of(&part->images[i].texture);
-        (void)tuile_draw_image(canvas, &texture, part->images[i].x, part->images[i].y, 1, 255);
+        const render_placed_image_t *placed = &part->images[i];
+        (void)tuile_draw_image(canvas, &placed->image.texture, placed->x, placed->y, 1, 255);
     }
     for (unsigned i = 0; i < part->gauge_count; i++) {
         (void)tuile_draw_gauge(canvas, &part->gauges[i]);
@@ -167,26 +147,12 @@ static int load_font(render_overlay_t *part) {
     return result ? command_fail("--font: %s", tuile_error_text(result)) : 0;
 }
 
-static int load_image(render_image_t *image) {
-    static const mesh_options_t options = {.texture_format = MESH_TEXELS_AUTO};
-    sim_error_t error = {""};
-    uint8_t *bytes = NULL;
-    size_t size_bytes;
-    image_t pixels = {0};
-    const int failed = input_read(image->path, IMAGE_FILE_MAX, &bytes, &size_bytes, &error) != 0 ||
-                       image_decode(&pixels, bytes, size_bytes, image->path, &error) != 0 ||
-                       texels_make(&image->texture, &pixels, 0, &options, image->path, &error) != 0;
-    image_free(&pixels);
-    free(bytes);
-    return failed ? command_fail("--overlay-image: %s", error.text) : 0;
-}
-
 int render_overlay_apply(render_overlay_t *part, tuile_config_t *config) {
     const bool has_any = part->text_count || part->gauge_count || part->image_count || part->has_fps;
     if (!has_any && !part->font_path) { return 0; }
     int code = load_font(part);
     for (unsigned i = 0; code == 0 && i < part->image_count; i++) {
-        code = load_image(&part->images[i]);
+        code = render_image_load(&part->images[i].image, "--overlay-image");
     }
     if (code) { return code; }
     for (unsigned i = 0; i < part->gauge_count; i++) {
@@ -214,9 +180,7 @@ void render_overlay_free(render_overlay_t *part) {
         free(part->texts[i].text);
     }
     for (unsigned i = 0; i < part->image_count; i++) {
-        free(part->images[i].path);
-        free(part->images[i].texture.texels);
-        free(part->images[i].texture.palette);
+        render_image_free(&part->images[i].image);
     }
     free(part->font_bytes);
     memset(part, 0, sizeof *part);

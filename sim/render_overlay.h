@@ -3,8 +3,8 @@
 #define SIM_RENDER_OVERLAY_H
 
 #include "../raster/overlay/overlay.h"
-#include "mesh/mesh.h"
 #include "options.h"
+#include "render_image.h"
 
 #define RENDER_TEXTS_MAX 32
 #define RENDER_GAUGES_MAX 8
@@ -15,11 +15,10 @@ typedef struct render_text {
     char *text;
 } render_text_t;
 
-typedef struct render_image {
+typedef struct render_placed_image {
     int32_t x, y;
-    char *path;
-    mesh_texture_t texture;
-} render_image_t;
+    render_image_t image;
+} render_placed_image_t;
 
 /* Zero = nothing over the model. */
 typedef struct render_overlay {
@@ -27,7 +26,7 @@ typedef struct render_overlay {
     bool has_fps;
     render_text_t texts[RENDER_TEXTS_MAX];
     tuile_gauge_t gauges[RENDER_GAUGES_MAX];
-    render_image_t images[RENDER_IMAGES_MAX];
+    render_placed_image_t images[RENDER_IMAGES_MAX];
     unsigned text_count, gauge_count, image_count;
     uint8_t *font_bytes;
     tuile_font_t font;
