@@ -193,10 +193,10 @@ $(COMPARED)/room.tuile $(COMPARED)/room-tree.tuile: tests/models/room.obj
 $(COMPARED)/house.tuile $(COMPARED)/house-tree.tuile: $(HOUSE)
 $(COMPARED)/%-tree.tuile: $(TUILE)
 	@mkdir -p $(@D)
-	$(TUILE) mesh $(filter-out $(TUILE),$^) --tree -o $@ >/dev/null
+	$(TUILE) mesh $(filter-out $(TUILE),$^) --no-textures --tree -o $@ >/dev/null
 $(COMPARED)/%.tuile: $(TUILE)
 	@mkdir -p $(@D)
-	$(TUILE) mesh $(filter-out $(TUILE),$^) -o $@ >/dev/null
+	$(TUILE) mesh $(filter-out $(TUILE),$^) --no-textures -o $@ >/dev/null
 
 bench-methods: $(OBJ)/bench $(BUILD)/need/bench $(COMPARED_MODELS) ## the five methods over four scenes: instructions, memory, overdraw, flash
 	@sh tests/bench/methods.sh $(OBJ)/bench $(COMPARED) $(COMPARED) $(SIZE) $(METHODS_TILE) $(METHODS_SCENES)

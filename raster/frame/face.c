@@ -407,7 +407,7 @@ static int bin_polygon_sided(tuile_t *t, const frame_cluster_t *cluster, const u
     return result;
 }
 
-static int bin_polygon_face(tuile_t *t, const frame_cluster_t *cluster, const uint8_t *face, unsigned f) {
+static TUILE_NOINLINE int bin_polygon_lit(tuile_t *t, const frame_cluster_t *cluster, const uint8_t *face, unsigned f) {
     const uint8_t sides = t->sides;
     frame_lit_face_t lit = {.cluster = cluster};
     const int8_t *normal = cluster->face_normals ? cluster->face_normals + 3 * (size_t)f : NULL;
@@ -415,6 +415,11 @@ static int bin_polygon_face(tuile_t *t, const frame_cluster_t *cluster, const ui
     const int result = bin_polygon_sided(t, cluster, face, f);
     t->sides = sides;
     return result;
+}
+
+TUILE_INLINE int bin_polygon_face(tuile_t *t, const frame_cluster_t *cluster, const uint8_t *face, unsigned f) {
+    if (TUILE_HAS(LIGHTS) && TUILE_UNLIKELY(t->careful)) { return bin_polygon_lit(t, cluster, face, f); }
+    return bin_polygon_sided(t, cluster, face, f);
 }
 
 static TUILE_NOINLINE int bin_polygons(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
