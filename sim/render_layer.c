@@ -1,6 +1,7 @@
 #include "render_layer.h"
 
 #include "commands.h"
+#include "render_value.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,16 +18,6 @@ const char render_layer_usage[] =
     "  --point X,Y,Z[,SIZE[,RRGGBB]]   a disc, SIZE pixels across (5), that faces may hide; up to 64\n"
     "  --sprite FILE@X,Y,Z,W,H  a PNG or JPEG picture that faces the camera, W x H model units round a point; up to 16\n";
 
-/* RRGGBB to the end of the text. */
-static bool read_colour(const char *text, uint8_t colour[3]) {
-    unsigned value;
-    if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6 || sscanf(text, "%6x", &value) != 1) { return false; }
-    colour[0] = (uint8_t)(value >> 16);
-    colour[1] = (uint8_t)(value >> 8);
-    colour[2] = (uint8_t)value;
-    return true;
-}
-
 /* `least` to `most` numbers with commas between, and then, where all are there and colour is not NULL, perhaps a colour. */
 static bool read_numbers(const char *text, double *numbers, unsigned least, unsigned most, uint8_t colour[3]) {
     for (unsigned i = 0; i < most; i++) {
@@ -37,7 +28,7 @@ static bool read_numbers(const char *text, double *numbers, unsigned least, unsi
         if (*end != ',') { return false; }
         text = end + 1;
     }
-    return colour && read_colour(text, colour);
+    return colour && render_value_colour(text, colour);
 }
 
 static void fail(options_t *options, const char *name, const char *value, const char *wants) {
@@ -114,7 +105,7 @@ bool render_layer_option(render_layer_t *part, options_t *options, const char *a
         }
     } else if (strcmp(argument, "--edge-colour") == 0) {
         const char *value = options_value(options);
-        if (value && !read_colour(value, part->edge_colour)) {
+        if (value && !render_value_colour(value, part->edge_colour)) {
             fail(options, "--edge-colour", value, "six hexadecimal digits, RRGGBB");
         }
     } else if (strcmp(argument, "--smooth-lines") == 0) {

@@ -1,6 +1,7 @@
 #include "render_light.h"
 
 #include "commands.h"
+#include "render_value.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -42,12 +43,7 @@ static bool part_number(const char **text, double *value, double low, double hig
 
 static bool part_colour(const char **text, uint8_t colour[3]) {
     char part[64];
-    if (!next_part(text, part) || strlen(part) != 6 || strspn(part, "0123456789abcdefABCDEF") != 6) { return false; }
-    const unsigned long rgb = strtoul(part, NULL, 16);
-    for (int k = 0; k < 3; k++) {
-        colour[k] = (uint8_t)(rgb >> (16 - 8 * k));
-    }
-    return true;
+    return next_part(text, part) && render_value_colour(part, colour);
 }
 
 static void take_light(render_light_t *l, options_t *options, unsigned numbers, const char *what) {

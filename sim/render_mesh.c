@@ -1,9 +1,9 @@
 #include "render_mesh.h"
 
 #include "commands.h"
+#include "render_value.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 const char render_mesh_usage[] =
@@ -20,17 +20,12 @@ const char render_mesh_usage[] =
 static void take_key(mesh_options_t *mesh, options_t *options) {
     const char *text = options_value(options);
     if (!text) { return; }
-    char *end = NULL;
-    const unsigned long colour = strlen(text) == 6 && strspn(text, "0123456789abcdefABCDEF") == 6 ? strtoul(text, &end, 16) : 0;
-    if (!end) {
+    if (!render_value_colour(text, mesh->texture_key)) {
         (void)command_fail("--texture-key takes six hexadecimal digits, RRGGBB, not \"%s\"", text);
         options->failed = true;
         return;
     }
     mesh->texture_keyed = true;
-    for (int k = 0; k < 3; k++) {
-        mesh->texture_key[k] = (uint8_t)(colour >> (16 - 8 * k));
-    }
 }
 
 bool render_mesh_option(mesh_options_t *mesh, options_t *options, const char *argument) {

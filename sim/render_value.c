@@ -6,19 +6,28 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool render_value_next_colour(const char **text, uint8_t colour[3]) {
+    if (strspn(*text, "0123456789abcdefABCDEF") != 6) { return false; }
+    const unsigned long rgb = strtoul(*text, NULL, 16);
+    for (unsigned i = 0; i < 3; i++) {
+        colour[i] = (uint8_t)(rgb >> (16 - 8 * i));
+    }
+    *text += 6;
+    return true;
+}
+
+bool render_value_colour(const char *text, uint8_t colour[3]) {
+    return strlen(text) == 6 && render_value_next_colour(&text, colour);
+}
+
 bool render_value_background(options_t *options, uint8_t background[3]) {
     const char *text = options_value(options);
-    unsigned value;
-    char rest;
     if (!text) { return false; }
-    if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6 || sscanf(text, "%6x%c", &value, &rest) != 1) {
+    if (!render_value_colour(text, background)) {
         (void)command_fail("--background %s: wants six hexadecimal digits, RRGGBB", text);
         options->failed = true;
         return false;
     }
-    background[0] = (uint8_t)(value >> 16);
-    background[1] = (uint8_t)(value >> 8);
-    background[2] = (uint8_t)value;
     return true;
 }
 

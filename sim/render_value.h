@@ -4,6 +4,11 @@
 
 #include "options.h"
 
+/* A text of six hexadecimal digits, RRGGBB; false, without a message, for any other. */
+bool render_value_colour(const char *text, uint8_t colour[3]);
+/* The same where more may follow that is no such digit; *text moves behind the six. */
+bool render_value_next_colour(const char **text, uint8_t colour[3]);
+
 /* RRGGBB */
 bool render_value_background(options_t *options, uint8_t background[3]);
 

@@ -1,6 +1,7 @@
 #include "render_world.h"
 
 #include "commands.h"
+#include "render_value.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -35,14 +36,8 @@ static bool take_numbers(const char **text, double *values, unsigned count, doub
 }
 
 static bool take_colour(const char **text, world_thing_t *thing) {
-    unsigned value;
-    if (strspn(*text, "0123456789abcdefABCDEF") != 6 || sscanf(*text, "%6x", &value) != 1) { return false; }
-    for (unsigned i = 0; i < 3; i++) {
-        thing->colour[i] = (uint8_t)(value >> (16 - 8 * i));
-    }
-    thing->has_colour = true;
-    *text += 6;
-    return true;
+    thing->has_colour = render_value_next_colour(text, thing->colour);
+    return thing->has_colour;
 }
 
 static bool take_key(const char **text, world_thing_t *thing, unsigned things) {
