@@ -118,9 +118,10 @@ void frame_lights_flat(const tuile_t *t, record_surface_t *surface) {
     int32_t sum[3] = {0, 0, 0};
     uint8_t light[4];
     point_open(t, &point, face->material);
-    for (unsigned i = 0; i < face->count; i++) {
-        add_position(face->cluster, face->corners[i], sum);
-    }
+    unsigned corner = 0;
+    do { /* a face has corners */
+        add_position(face->cluster, face->corners[corner], sum);
+    } while (++corner < face->count);
     for (unsigned i = 0; i < 3; i++) {
         point.at[i] = fixed_floor_div(sum[i], (int32_t)face->count);
         point.normal[i] = face->normal[i];

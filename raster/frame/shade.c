@@ -53,6 +53,7 @@ static void corner_open(const tuile_t *t, const record_surface_t *extra, const t
 static void largest_triangle(const polygon_ring_t *ring, const vertex_t *corners[3]) {
     int64_t most = -1;
     const vertex_t *v0 = polygon_ring_vertex(ring, 0);
+    corners[0] = corners[1] = corners[2] = v0;
     for (uint32_t i = 1; i + 1 < ring->count; i++) {
         const vertex_t *v1 = polygon_ring_vertex(ring, i), *v2 = polygon_ring_vertex(ring, i + 1);
         int64_t area = (int64_t)(v2->x - v0->x) * (v1->y - v0->y) - (int64_t)(v1->x - v0->x) * (v2->y - v0->y);

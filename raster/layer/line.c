@@ -82,6 +82,7 @@ static void stroke_smooth(const stroke_t *s) {
     const int32_t a_along = flat ? a.x : a.y, b_along = flat ? b.x : b.y, a_aside = flat ? a.y : a.x, b_aside = flat ? b.y : b.x;
     const int32_t low = flat ? band->left : band->top, high = flat ? band->right : band->bottom;
     const int64_t length = b_along - a_along;
+    if (length <= 0) { return; } /* no middle of a pixel is between the ends */
     int32_t first = (a_along + 7) >> 4, end = (b_along + 7) >> 4;
     if (first < low) { first = low; }
     if (end > high) { end = high; }
