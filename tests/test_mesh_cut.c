@@ -5,39 +5,16 @@
 
 #include "../raster/tuile.h"
 #include "../sim/mesh/mesh.h"
+#include "support/built.h"
 #include "support/decoder.h"
 #include "support/folder.h"
 #include "support/images.h"
-
-typedef struct built {
-    uint8_t *bytes;
-    size_t size;
-    mesh_report_t report;
-} built_t;
-
-static built_t load(const char *path, const mesh_options_t *options) {
-    built_t built;
-    sim_error_t error = {""};
-    if (mesh_load(path, 0, options, &built.bytes, &built.size, &built.report, &error) != 0) { fail_msg("%s", error.text); }
-    return built;
-}
-
-static int s16(const uint8_t *p) { return (int)(decoder_u16(p) ^ 32768u) - 32768; }
-
-/* A 4 x 2 image of four colours, left to right, in two rows alike. */
-static void put_stripes(const char *name) {
-    static const uint8_t row[] = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255};
-    uint8_t pixels[24];
-    memcpy(pixels, row, 12);
-    memcpy(pixels + 12, row, 12);
-    (void)images_put(name, images_png_rgb(4, 2, pixels, false));
-}
 
 #define MTL "newmtl striped\nKd 1 0.2 0\nmap_Kd stripes.png\n"
 
 static const char *put_quad(const char *texcoords) {
     char text[1024];
-    put_stripes("stripes.png");
+    images_put_stripes("stripes.png");
     (void)folder_put_text("a.mtl", MTL);
     (void)snprintf(text, sizeof text, "mtllib a.mtl\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\n%susemtl striped\nf 1/1 2/2 3/3 4/4\n",
                    texcoords);
@@ -54,7 +31,7 @@ static void polygons_stay_where_their_texture_is_affine(void **state) {
                  {"vt 0 0\nvt 1 0\nvt 1.003 1\nvt 0 1\n", 1}, /* 0.003 of 4 texels is less */
                  {"vt 0 0\nvt 1 0\nvt 1.005 1\nvt 0 1\n", 2}, {"vt 0 0\nvt 1 0\nvt 0 0\nvt 0 1\n", 2}};
     for (unsigned i = 0; i < CHECK_COUNT(cases); i++) {
-        built_t b = load(put_quad(cases[i].texcoords), NULL);
+        built_t b = built_load(put_quad(cases[i].texcoords), NULL);
         if (b.report.faces != cases[i].faces) { fail_msg("case %u: %zu faces", i, b.report.faces); }
         free(b.bytes);
     }
@@ -63,14 +40,15 @@ static void polygons_stay_where_their_texture_is_affine(void **state) {
 /* Three quads through one another; texture coordinates are s = x + z / 2, t = 1 - y repeats of 4 x 2 texels all over them. */
 static void faces_cut_for_a_tree_have_their_texture_where_it_was(void **state) {
     (void)state;
-    put_stripes("stripes.png");
+    images_put_stripes("stripes.png");
     (void)folder_put_text("a.mtl", MTL);
-    built_t b = load(folder_put_text("cut.obj", "mtllib a.mtl\nv 0 0 0\nv 8 0 0\nv 8 8 0\nv 0 8 0\n"
-                                                "v 3 -1 -4\nv 3 9 -4\nv 3 9 4\nv 3 -1 4\nv -1 1 -4\nv 9 6 -4\nv 9 6 4\nv -1 1 4\n"
-                                                "vt 0 0\nvt 8 0\nvt 8 8\nvt 0 8\nvt 1 -1\nvt 1 9\nvt 5 9\nvt 5 -1\n"
-                                                "vt -3 1\nvt 7 6\nvt 11 6\nvt 1 1\nusemtl striped\n"
-                                                "f 1/1 2/2 3/3 4/4\nf 5/5 6/6 7/7 8/8\nf 9/9 10/10 11/11 12/12\n"),
-                     &(mesh_options_t){.tree = true});
+    built_t b =
+        built_load(folder_put_text("cut.obj", "mtllib a.mtl\nv 0 0 0\nv 8 0 0\nv 8 8 0\nv 0 8 0\n"
+                                              "v 3 -1 -4\nv 3 9 -4\nv 3 9 4\nv 3 -1 4\nv -1 1 -4\nv 9 6 -4\nv 9 6 4\nv -1 1 4\n"
+                                              "vt 0 0\nvt 8 0\nvt 8 8\nvt 0 8\nvt 1 -1\nvt 1 9\nvt 5 9\nvt 5 -1\n"
+                                              "vt -3 1\nvt 7 6\nvt 11 6\nvt 1 1\nusemtl striped\n"
+                                              "f 1/1 2/2 3/3 4/4\nf 5/5 6/6 7/7 8/8\nf 9/9 10/10 11/11 12/12\n"),
+                   &(mesh_options_t){.tree = true});
     tuile_model_t model;
     assert_int_equal(tuile_model_open(&model, b.bytes, b.size), 0);
     assert_true(b.report.tree.splits > 2);
@@ -81,9 +59,10 @@ static void faces_cut_for_a_tree_have_their_texture_where_it_was(void **state) {
         double place[3];
         for (int k = 0; k < 3; k++) {
             const double fraction = model.fractions ? (double)(int8_t)model.fractions[3 * v + (unsigned)k] / 256 : 0;
-            place[k] = (s16(model.positions + 6 * (size_t)v + 2 * k) + fraction + model.offset[k]) * step;
+            place[k] = (decoder_s16(model.positions + 6 * (size_t)v + 2 * k) + fraction + model.offset[k]) * step;
         }
-        const double s = s16(model.texcoords + 4 * (size_t)v) / unit, t = s16(model.texcoords + 4 * (size_t)v + 2) / unit;
+        const double s = decoder_s16(model.texcoords + 4 * (size_t)v) / unit,
+                     t = decoder_s16(model.texcoords + 4 * (size_t)v + 2) / unit;
         /* Shifted to the middle: s, -3 ... 11, by 4 repeats, t, -8 ... 2, by -3. */
         assert_true(fabs(s - 4 * (place[0] + place[2] / 2 - 4)) <= 0.52 / unit);
         assert_true(fabs(t - 2 * (1 - place[1] + 3)) <= 0.52 / unit);
@@ -115,10 +94,10 @@ static void walk(const tuile_model_t *m, const walker_t *walker) {
                 const size_t v = decoder_u32(cluster + 12) + corner[c];
                 for (size_t i = 0; i < 3; i++) {
                     const double fraction = m->fractions ? (double)(int8_t)m->fractions[3 * v + i] / 256 : 0;
-                    corners[c].place[i] = s16(m->positions + 6 * v + 2 * i) + fraction;
+                    corners[c].place[i] = decoder_s16(m->positions + 6 * v + 2 * i) + fraction;
                 }
                 for (size_t i = 0; i < 2; i++) {
-                    corners[c].texcoord[i] = s16(m->texcoords + 4 * v + 2 * i);
+                    corners[c].texcoord[i] = decoder_s16(m->texcoords + 4 * v + 2 * i);
                 }
             }
             walker->face(walker->context, tuile_model_source_face(m, index), corners, count);
@@ -179,7 +158,7 @@ static void pieces_of_the_spider_have_the_texture_of_their_faces(void **state) {
     const char *path = getenv("SPIDER");
     if (!path) { skip(); }
     tuile_model_t model;
-    built_t plain = load(path, NULL), tree = load(path, &(mesh_options_t){.tree = true});
+    built_t plain = built_load(path, NULL), tree = built_load(path, &(mesh_options_t){.tree = true});
     assert_true(tree.report.tree.seam_corners > 100);
     assert_int_equal(tuile_model_open(&model, plain.bytes, plain.size), 0);
     whole_t whole = {.triangles = calloc(model.source_face_count, sizeof *whole.triangles)};
@@ -198,7 +177,7 @@ static void simplified_faces_have_their_texture_where_it_was(void **state) {
     char *text = malloc(1 << 16);
     assert_non_null(text);
     size_t used = (size_t)sprintf(text, "mtllib a.mtl\nusemtl striped\n");
-    put_stripes("stripes.png");
+    images_put_stripes("stripes.png");
     (void)folder_put_text("a.mtl", MTL);
     for (int y = 0; y <= 16; y++) {
         for (int x = 0; x <= 16; x++) { /* two sheets that meet at x = 8, where s leaps by 5 */
@@ -227,8 +206,8 @@ static void simplified_faces_have_their_texture_where_it_was(void **state) {
     const double step = ldexp(model.step.mantissa, model.step.exponent), unit = ldexp(1, tuile_model_material(&model, 0).uv_bits);
     unsigned sides[2] = {0};
     for (uint32_t v = 0; v < model.vertex_count; v++) {
-        const double x = (s16(model.positions + 6 * (size_t)v) + model.offset[0]) * step;
-        const double s = s16(model.texcoords + 4 * (size_t)v) / unit;
+        const double x = (decoder_s16(model.positions + 6 * (size_t)v) + model.offset[0]) * step;
+        const double s = decoder_s16(model.texcoords + 4 * (size_t)v) / unit;
         /* In texels: x, or x + 20, less 4 or 5 repeats of 4; s reaches from 0 to 9 repeats. */
         const double shift = nearbyint((x - s) / 4) * 4;
         assert_true(fabs(x - s - shift) < 0.01);

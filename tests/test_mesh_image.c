@@ -4,6 +4,7 @@
 #include <png.h>
 
 #include "../sim/mesh/image.h"
+#include "support/decoder.h"
 #include "support/images.h"
 
 static image_t decode(image_bytes_t bytes) {
@@ -194,15 +195,6 @@ static void a_png_with_a_wrong_sum_is_refused(void **state) {
     free(bytes.at);
 }
 
-static uint32_t crc_of(const uint8_t *bytes, size_t size) {
-    uint32_t crc = 0xffffffffu;
-    for (size_t i = 0; i < 8 * size; i++) {
-        const uint32_t bit = ((uint32_t)bytes[i / 8] >> i % 8 ^ crc) & 1u;
-        crc = crc >> 1 ^ (bit ? 0xedb88320u : 0);
-    }
-    return ~crc;
-}
-
 static void a_png_of_no_size_or_too_large_is_refused(void **state) {
     (void)state;
     static const uint8_t rows[] = {1, 2, 3};
@@ -215,7 +207,7 @@ static void a_png_of_no_size_or_too_large_is_refused(void **state) {
         for (unsigned k = 0; k < 4; k++) {
             bytes.at[16 + k] = (uint8_t)(cases[i].width >> (24 - 8 * k));
         }
-        const uint32_t crc = crc_of(bytes.at + 12, 17);
+        const uint32_t crc = decoder_crc(bytes.at + 12, 17);
         for (unsigned k = 0; k < 4; k++) {
             bytes.at[29 + k] = (uint8_t)(crc >> (24 - 8 * k));
         }

@@ -43,10 +43,8 @@ static void fails_with(const mesh_options_t *options, size_t max_faces, const ch
     if (!strstr(error.text, expected)) { fail_msg("got: %s\nexpected: %s", error.text, expected); }
 }
 
-static int s16(const uint8_t *p) { return (int)(decoder_u16(p) ^ 32768u) - 32768; }
-
 static double place(const built_t *b, const uint8_t *positions, uint32_t v, int axis) {
-    return (s16(positions + 6 * (size_t)v + 2 * axis) + b->model.offset[axis]) *
+    return (decoder_s16(positions + 6 * (size_t)v + 2 * axis) + b->model.offset[axis]) *
            ldexp(b->model.step.mantissa, b->model.step.exponent);
 }
 
@@ -181,15 +179,15 @@ static void spheres_hold_all_that_is_between(void **state) {
     uint32_t vertex = 0;
     for (uint32_t k = 0; k < m->cluster_count; k++) {
         const uint8_t *cluster = m->clusters + MODEL_CLUSTER_BYTES * (size_t)k;
-        const int centre[3] = {s16(cluster), s16(cluster + 2), s16(cluster + 4)};
+        const int centre[3] = {decoder_s16(cluster), decoder_s16(cluster + 2), decoder_s16(cluster + 4)};
         const int whole[3] = {m->centre[0], m->centre[1], m->centre[2]};
         for (unsigned v = 0; v < cluster[CLUSTER_AT_VERTEX_COUNT]; v++, vertex++) {
             for (int i = 0; i <= 20; i++) {
                 const int32_t t = i == 0 ? 0 : i == 1 ? 32768 : random_between(&random, 0, 32768);
                 int point[3];
                 for (int axis = 0; axis < 3; axis++) {
-                    const int p = s16(m->positions + 6 * (size_t)vertex + 2 * axis);
-                    const int q = s16(m->morph_positions + 6 * (size_t)vertex + 2 * axis);
+                    const int p = decoder_s16(m->positions + 6 * (size_t)vertex + 2 * axis);
+                    const int q = decoder_s16(m->morph_positions + 6 * (size_t)vertex + 2 * axis);
                     point[axis] = (int)floor(p + (double)(q - p) * t / 32768 + 0.5);
                     assert_in_range(point[axis] + 32768, m->low[axis] + 32768, m->high[axis] + 32768);
                 }
@@ -211,10 +209,10 @@ static void spheres_have_room_for_rounding(void **state) {
     const mesh_options_t options = {.morph_path = second_path, .step = 1};
     if (mesh_load(first_path, 0, &options, &b.bytes, &b.size, &b.report, &error) != 0) { fail_msg("%s", error.text); }
     assert_int_equal(tuile_model_open(&b.model, b.bytes, b.size), 0);
-    assert_int_equal(s16(b.model.positions), -3);
-    assert_int_equal(s16(b.model.morph_positions), -4);
+    assert_int_equal(decoder_s16(b.model.positions), -3);
+    assert_int_equal(decoder_s16(b.model.morph_positions), -4);
     const uint8_t *cluster = b.model.clusters;
-    const int centre[3] = {256 * s16(cluster), 256 * s16(cluster + 2), 256 * s16(cluster + 4)};
+    const int centre[3] = {256 * decoder_s16(cluster), 256 * decoder_s16(cluster + 2), 256 * decoder_s16(cluster + 4)};
     const int point[3] = {-3 * 256 - 1, -4 * 256, 0}; /* at 1 / 32768 of the way: 3.0039^2 + 4^2 > 5^2 */
     assert_false(holds((int[3]){0, 0, 0}, 5 * 256, point));
     assert_true(holds(centre, 256 * (int)decoder_u16(cluster + 6), point));
@@ -241,8 +239,8 @@ static void cones_are_kept_where_all_goes_one_way(void **state) {
         for (unsigned v = 0; v < cluster[CLUSTER_AT_VERTEX_COUNT]; v++, vertex++) {
             for (int axis = 0; axis < 3; axis++) {
                 const size_t at = 6 * (size_t)vertex + 2 * (size_t)axis, of = 6 * (size_t)first + 2 * (size_t)axis;
-                as_one = as_one && s16(b.model.morph_positions + at) - s16(b.model.positions + at) ==
-                                       s16(b.model.morph_positions + of) - s16(b.model.positions + of);
+                as_one = as_one && decoder_s16(b.model.morph_positions + at) - decoder_s16(b.model.positions + at) ==
+                                       decoder_s16(b.model.morph_positions + of) - decoder_s16(b.model.positions + of);
             }
         }
         assert_int_equal(cluster[CLUSTER_AT_CUTOFF] < 255, as_one);

@@ -8,22 +8,10 @@
 
 #include "../raster/tuile.h"
 #include "../sim/mesh/mesh.h"
+#include "support/built.h"
 #include "support/decoder.h"
 #include "support/folder.h"
 #include "support/images.h"
-
-typedef struct built {
-    uint8_t *bytes;
-    size_t size;
-    mesh_report_t report;
-} built_t;
-
-static built_t load(const char *path, const mesh_options_t *options) {
-    built_t built;
-    sim_error_t error = {""};
-    if (mesh_load(path, 0, options, &built.bytes, &built.size, &built.report, &error) != 0) { fail_msg("%s", error.text); }
-    return built;
-}
 
 static void fails(const char *path, const mesh_options_t *options, const char *expected) {
     uint8_t *bytes;
@@ -35,23 +23,13 @@ static void fails(const char *path, const mesh_options_t *options, const char *e
 }
 
 static const uint8_t *at(const built_t *b, size_t header) { return b->bytes + decoder_u32(b->bytes + header); }
-static int s16(const uint8_t *p) { return (int)(decoder_u16(p) ^ 32768u) - 32768; }
-
-/* A 4 x 2 image of four colours, left to right, in two rows alike. */
-static void put_stripes(const char *name) {
-    static const uint8_t row[] = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255};
-    uint8_t pixels[24];
-    memcpy(pixels, row, 12);
-    memcpy(pixels + 12, row, 12);
-    (void)images_put(name, images_png_rgb(4, 2, pixels, false));
-}
 
 #define MTL "newmtl striped\nKd 1 0.2 0\nmap_Kd stripes.png\n"
 #define TRIANGLE "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
 static const char *put_triangle(const char *mtl, const char *texcoords) {
     char text[1024];
-    put_stripes("stripes.png");
+    images_put_stripes("stripes.png");
     (void)folder_put_text("a.mtl", mtl);
     (void)snprintf(text, sizeof text, TRIANGLE "%susemtl striped\nf 1/1 2/2 3/3\n", texcoords);
     return folder_put_text("a.obj", text);
@@ -61,7 +39,7 @@ static const char *put_triangle(const char *mtl, const char *texcoords) {
 
 static void a_textured_triangle_stands_where_the_layout_says(void **state) {
     (void)state;
-    built_t b = load(put_triangle(MTL, "vt 0 0\nvt 1 0\nvt 0.25 1\n"), NULL);
+    built_t b = built_load(put_triangle(MTL, "vt 0 0\nvt 1 0\nvt 0.25 1\n"), NULL);
     static const uint8_t material[16] = {255, 51, 0, 255, 0, 0, 0, 0, 0, 0, 0, TUILE_MATERIAL_REPLACED, 8, 0, 0, 0};
     static const uint8_t palette[8] = {0x00, 0xf8, 0xe0, 0x07, 0x1f, 0x00, 0xff, 0xff};
     static const uint8_t rows[4] = {0x10, 0x32, 0x10, 0x32};
@@ -86,18 +64,18 @@ static void a_textured_triangle_stands_where_the_layout_says(void **state) {
     /* Repeats: s 0 ... 1, t = 1 - v 0 ... 1. Middles 1/2 are brought to -1/2: one repeat less. In 1/256 texel of 4 x 2. */
     static const int expected[3][2] = {{-4 * 256, 0}, {0, 0}, {-3 * 256, -2 * 256}};
     for (int i = 0; i < 3; i++) {
-        assert_int_equal(s16(at(&b, 124) + 4 * i), expected[i][0]);
-        assert_int_equal(s16(at(&b, 124) + 4 * i + 2), expected[i][1]);
+        assert_int_equal(decoder_s16(at(&b, 124) + 4 * i), expected[i][0]);
+        assert_int_equal(decoder_s16(at(&b, 124) + 4 * i + 2), expected[i][1]);
     }
     free(b.bytes);
 }
 
 static void materials_and_textures_are_told_by_the_model(void **state) {
     (void)state;
-    built_t b =
-        load(put_triangle("newmtl striped\nKd 1 0.2 0\nKe 0 0.4 1\nKs 0.2 0.6 0.4\nNs 30\nd 0.2\nmap_Kd -clamp on stripes.png\n",
-                          "vt 0 0\nvt 1 0\nvt 0.25 1\n"),
-             &(mesh_options_t){.bilinear = true, .texture_format = 1 + TUILE_TEXEL_RGB565, .no_mips = true});
+    built_t b = built_load(
+        put_triangle("newmtl striped\nKd 1 0.2 0\nKe 0 0.4 1\nKs 0.2 0.6 0.4\nNs 30\nd 0.2\nmap_Kd -clamp on stripes.png\n",
+                     "vt 0 0\nvt 1 0\nvt 0.25 1\n"),
+        &(mesh_options_t){.bilinear = true, .texture_format = 1 + TUILE_TEXEL_RGB565, .no_mips = true});
     tuile_model_t model;
     assert_int_equal(tuile_model_open(&model, b.bytes, b.size), 0);
     const tuile_material_t material = tuile_model_material(&model, 0);
@@ -120,20 +98,20 @@ static void materials_and_textures_are_told_by_the_model(void **state) {
     assert_null(texture.palette);
     assert_int_equal(texture.texels[0] | texture.texels[1] << 8, 0xf800);
     /* Clamped: nothing is shifted. */
-    assert_int_equal(s16(model.texcoords), 0);
-    assert_int_equal(s16(model.texcoords + 2), 2 * 256);
-    assert_int_equal(s16(model.texcoords + 8), 256);
-    assert_int_equal(s16(model.texcoords + 10), 0);
+    assert_int_equal(decoder_s16(model.texcoords), 0);
+    assert_int_equal(decoder_s16(model.texcoords + 2), 2 * 256);
+    assert_int_equal(decoder_s16(model.texcoords + 8), 256);
+    assert_int_equal(decoder_s16(model.texcoords + 10), 0);
     free(b.bytes);
 }
 
 static void without_textures_a_model_is_as_it_was(void **state) {
     (void)state;
-    built_t b = load(put_triangle(MTL, "vt 0 0\nvt 1 0\nvt 0.25 1\n"), &(mesh_options_t){.no_textures = true});
+    built_t b = built_load(put_triangle(MTL, "vt 0 0\nvt 1 0\nvt 0.25 1\n"), &(mesh_options_t){.no_textures = true});
     assert_int_equal(decoder_u32(b.bytes + 124) | decoder_u32(b.bytes + 132) | decoder_u16(b.bytes + 136), 0);
     assert_int_equal(at(&b, 88)[9], 255);
     (void)remove(folder_path("stripes.png")); /* images are not looked for */
-    built_t again = load(folder_path("a.obj"), &(mesh_options_t){.no_textures = true});
+    built_t again = built_load(folder_path("a.obj"), &(mesh_options_t){.no_textures = true});
     assert_int_equal(again.size, b.size);
     assert_memory_equal(again.bytes, b.bytes, b.size);
     free(again.bytes);
@@ -141,15 +119,6 @@ static void without_textures_a_model_is_as_it_was(void **state) {
 }
 
 /* ---- damage --------------------------------------------------------------------------------------------------------- */
-
-static uint32_t crc_of(const uint8_t *bytes, size_t size) {
-    uint32_t crc = 0xffffffffu;
-    for (size_t i = 0; i < 8 * size; i++) {
-        const uint32_t bit = ((uint32_t)bytes[i / 8] >> i % 8 ^ crc) & 1u;
-        crc = crc >> 1 ^ (bit ? 0xedb88320u : 0);
-    }
-    return ~crc;
-}
 
 static int opens_with(const built_t *b, size_t place, unsigned value, size_t count) {
     tuile_model_t model;
@@ -159,7 +128,7 @@ static int opens_with(const built_t *b, size_t place, unsigned value, size_t cou
     for (size_t i = 0; i < count; i++) {
         copy[place + i] = (uint8_t)(value >> 8 * i);
     }
-    const uint32_t crc = crc_of(copy + 12, b->size - 12);
+    const uint32_t crc = decoder_crc(copy + 12, b->size - 12);
     for (size_t i = 0; i < 4; i++) {
         copy[8 + i] = (uint8_t)(crc >> 8 * i);
     }
@@ -170,7 +139,7 @@ static int opens_with(const built_t *b, size_t place, unsigned value, size_t cou
 
 static void what_lies_outside_or_is_unknown_does_not_open(void **state) {
     (void)state;
-    built_t b = load(put_triangle(MTL, "vt 0 0\nvt 1 0\nvt 0.25 1\n"), NULL);
+    built_t b = built_load(put_triangle(MTL, "vt 0 0\nvt 1 0\nvt 0.25 1\n"), NULL);
     const size_t material = decoder_u32(b.bytes + 88), texture = decoder_u32(b.bytes + 132), size = b.size;
     const struct {
         size_t place;
@@ -232,8 +201,8 @@ static void what_lies_outside_or_is_unknown_does_not_open(void **state) {
 
 static void a_key_is_a_texel_of_its_format(void **state) {
     (void)state;
-    built_t b =
-        load(put_triangle(MTL, "vt 0 0\nvt 1 0\nvt 0.25 1\n"), &(mesh_options_t){.texture_keyed = true, .texture_key = {255}});
+    built_t b = built_load(put_triangle(MTL, "vt 0 0\nvt 1 0\nvt 0.25 1\n"),
+                           &(mesh_options_t){.texture_keyed = true, .texture_key = {255}});
     const size_t texture = decoder_u32(b.bytes + 132);
     assert_int_equal(b.bytes[texture + 14], TUILE_TEXTURE_KEY);
     assert_int_equal(opens_with(&b, texture + 16, 15, 2), 0);
@@ -258,7 +227,7 @@ static void the_finest_fraction_that_fits_is_taken(void **state) {
         {"vt 0 0\nvt 1 0\nvt 0 200\n", 7},
     };
     for (unsigned i = 0; i < CHECK_COUNT(cases); i++) {
-        built_t b = load(put_triangle(MTL, cases[i].texcoords), NULL);
+        built_t b = built_load(put_triangle(MTL, cases[i].texcoords), NULL);
         if (at(&b, 88)[12] != cases[i].bits) { fail_msg("case %u: %u", i, at(&b, 88)[12]); }
         free(b.bytes);
     }
@@ -274,7 +243,7 @@ static void texture_coordinates_too_far_out_are_told_with_face_material_and_span
     fails(put_triangle(MTL, "vt 0 0\nvt 16386 0\nvt 0 1\n"), NULL, "(0, 0) are too far out");
     fails(put_triangle(MTL, "vt 0 0\nvt 0 nan\nvt 0 1\n"), NULL, "a.obj:6: texture vertex 2 (0, nan) is not finite");
     fails(put_triangle(MTL, "vt 0 0\nvt 0 1e39\nvt 0 1\n"), NULL, "a.obj:6: texture vertex 2 (0, 1e+39) is not finite");
-    built_t b = load(folder_path("a.obj"), &(mesh_options_t){.no_textures = true});
+    built_t b = built_load(folder_path("a.obj"), &(mesh_options_t){.no_textures = true});
     free(b.bytes);
     /* Clamped ones cannot be shifted. */
     fails(put_triangle("newmtl striped\nmap_Kd -clamp on stripes.png\n", "vt 9000 0\nvt 9000 0\nvt 9000 1\n"), NULL, "too far out");
@@ -285,7 +254,7 @@ static void the_spider_has_its_texture_coordinates_within_half_a_unit(void **sta
     (void)state;
     const char *path = getenv("SPIDER");
     if (!path) { skip(); }
-    built_t b = load(path, NULL);
+    built_t b = built_load(path, NULL);
     tuile_model_t model;
     assert_int_equal(tuile_model_open(&model, b.bytes, b.size), 0);
     const struct aiScene *scene = aiImportFile(path, 0);
@@ -327,13 +296,13 @@ static void the_spider_has_its_texture_coordinates_within_half_a_unit(void **sta
                 const double uv[2] = {(double)mesh->mTextureCoords[0][v].x, 1 - (double)mesh->mTextureCoords[0][v].y};
                 const double place[3] = {(double)mesh->mVertices[v].x, (double)mesh->mVertices[v].y, (double)mesh->mVertices[v].z};
                 for (int k = 0; k < 3; k++) {
-                    const double q = s16(model.positions + 6 * (size_t)corner->vertex[c] + 2 * k);
+                    const double q = decoder_s16(model.positions + 6 * (size_t)corner->vertex[c] + 2 * k);
                     assert_true(fabs((q + model.offset[k]) * step - place[k]) <= step * 0.500001);
                 }
                 for (int k = 0; k < 2; k++) {
                     const double size = k ? texture.height : texture.width;
                     const double unit = ldexp(1, material.uv_bits);
-                    const double told = s16(model.texcoords + 4 * (size_t)corner->vertex[c] + 2 * k) / unit;
+                    const double told = decoder_s16(model.texcoords + 4 * (size_t)corner->vertex[c] + 2 * k) / unit;
                     double shift = uv[k] * size - told;
                     outside += uv[k] < 0 || uv[k] > 1;
                     const double whole = nearbyint(shift / size);
@@ -377,7 +346,7 @@ static void images_that_are_missing_or_broken_are_told_with_their_material(void 
     free(wide);
     const char *path = put_triangle("newmtl striped\nmap_Kd wide.png\n", UVS);
     fails(path, NULL, "wide.png\": is 2049x1 pixels");
-    built_t b = load(path, &(mesh_options_t){.texture_size = 2048});
+    built_t b = built_load(path, &(mesh_options_t){.texture_size = 2048});
     assert_int_equal(decoder_u16(at(&b, 132) + 8), 1024);
     free(b.bytes);
 }
@@ -389,7 +358,7 @@ static void an_image_is_found_by_its_bare_name_too(void **state) {
     for (unsigned i = 0; i < CHECK_COUNT(names); i++) {
         char mtl[200];
         (void)snprintf(mtl, sizeof mtl, "newmtl striped\nmap_Kd %s\n", names[i]);
-        built_t b = load(put_triangle(mtl, UVS), NULL);
+        built_t b = built_load(put_triangle(mtl, UVS), NULL);
         assert_int_equal(decoder_u16(b.bytes + 136), 1);
         free(b.bytes);
     }
@@ -397,12 +366,13 @@ static void an_image_is_found_by_its_bare_name_too(void **state) {
 
 static void an_image_of_two_materials_is_stored_once(void **state) {
     (void)state;
-    put_stripes("stripes.png");
+    images_put_stripes("stripes.png");
     (void)folder_put_text("two.mtl",
                           "newmtl a\nKd 1 0 0\nmap_Kd stripes.png\nnewmtl b\nKd 0 1 0\nmap_Kd stripes.png\nnewmtl c\nKd 0 0 1\n");
-    built_t b = load(folder_put_text("two.obj", "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
-                                                "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 2/2 4/3\nusemtl c\nf 2/1 3/2 4/3\n"),
-                     NULL);
+    built_t b =
+        built_load(folder_put_text("two.obj", "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                                              "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 2/2 4/3\nusemtl c\nf 2/1 3/2 4/3\n"),
+                   NULL);
     assert_int_equal(decoder_u16(b.bytes + 136), 1);
     assert_int_equal(decoder_u16(b.bytes + 32), 3);
     assert_int_equal(at(&b, 88)[9], 0);
@@ -451,7 +421,8 @@ static const char *put_gltf(const char *sampler, const char *transform) {
 
 static void embedded_images_sampler_and_sides_of_gltf_are_read(void **state) {
     (void)state;
-    built_t b = load(put_gltf("\"wrapS\":33071,\"wrapT\":10497", ""), &(mesh_options_t){.texture_format = 1 + TUILE_TEXEL_GREY8});
+    built_t b =
+        built_load(put_gltf("\"wrapS\":33071,\"wrapT\":10497", ""), &(mesh_options_t){.texture_format = 1 + TUILE_TEXEL_GREY8});
     const uint8_t *texture = at(&b, 132);
     assert_int_equal(decoder_u16(b.bytes + 136), 1);
     assert_int_equal(texture[14], TUILE_TEXTURE_CLAMP_S);
@@ -461,7 +432,7 @@ static void embedded_images_sampler_and_sides_of_gltf_are_read(void **state) {
     /* (0, 0), (1, 0), (0, 1), downwards; along t, which repeats, one less. */
     static const int expected[6] = {0, -256, 256, -256, 0, 0};
     for (size_t i = 0; i < 6; i++) {
-        assert_int_equal(s16(at(&b, 124) + 2 * i), expected[i]);
+        assert_int_equal(decoder_s16(at(&b, 124) + 2 * i), expected[i]);
     }
     assert_string_equal(b.report.warnings, "");
     free(b.bytes);
@@ -469,21 +440,21 @@ static void embedded_images_sampler_and_sides_of_gltf_are_read(void **state) {
 
 static void what_is_done_otherwise_is_warned_of(void **state) {
     (void)state;
-    built_t b = load(put_gltf("\"wrapS\":33648,\"wrapT\":33648", ""), NULL);
+    built_t b = built_load(put_gltf("\"wrapS\":33648,\"wrapT\":33648", ""), NULL);
     assert_non_null(strstr(b.report.warnings, "mirrored along s; it is repeated\n"));
     assert_non_null(strstr(b.report.warnings, "mirrored along t; it is repeated\n"));
     assert_int_equal(at(&b, 132)[14], 0);
     assert_null(strstr(b.report.warnings, "moved"));
     free(b.bytes);
-    b = load(put_gltf("", ",\"extensions\":{\"KHR_texture_transform\":{\"offset\":[0.5,0]}}"), NULL);
+    b = built_load(put_gltf("", ",\"extensions\":{\"KHR_texture_transform\":{\"offset\":[0.5,0]}}"), NULL);
     assert_non_null(strstr(b.report.warnings, "is moved, scaled or turned; that is left out\n"));
     free(b.bytes);
-    b = load(put_gltf("", ",\"extensions\":{\"KHR_texture_transform\":{\"scale\":[1,1]}}"), NULL);
+    b = built_load(put_gltf("", ",\"extensions\":{\"KHR_texture_transform\":{\"scale\":[1,1]}}"), NULL);
     assert_string_equal(b.report.warnings, "");
     free(b.bytes);
-    put_stripes("stripes.png");
+    images_put_stripes("stripes.png");
     (void)folder_put_text("a.mtl", MTL);
-    b = load(folder_put_text("bare.obj", TRIANGLE "usemtl striped\nf 1 2 3\n"), NULL);
+    b = built_load(folder_put_text("bare.obj", TRIANGLE "usemtl striped\nf 1 2 3\n"), NULL);
     assert_non_null(strstr(b.report.warnings, "it has no texture coordinates; it is drawn without\n"));
     assert_int_equal(at(&b, 88)[9], 255);
     free(b.bytes);
@@ -504,13 +475,13 @@ static const char *put_ply(const char *others, const char *last) {
 
 static void colours_that_differ_within_a_face_are_kept_at_its_vertices(void **state) {
     (void)state;
-    built_t b = load(put_ply("30 0 0 255", "90 60 255 128"), NULL);
+    built_t b = built_load(put_ply("30 0 0 255", "90 60 255 128"), NULL);
     static const uint8_t colours[12] = {30, 0, 0, 255, 30, 0, 0, 255, 90, 60, 255, 128}, mean[3] = {50, 20, 85};
     assert_memory_equal(at(&b, 128), colours, 12);
     assert_memory_equal(at(&b, 88), mean, 3); /* for those who draw without */
     assert_int_equal(at(&b, 88)[11], TUILE_MATERIAL_VERTEX_COLOURS);
     free(b.bytes);
-    b = load(put_ply("30 0 0 255", "90 60 255 128"), &(mesh_options_t){.vertex_colours = MESH_COLOURS_FACES});
+    b = built_load(put_ply("30 0 0 255", "90 60 255 128"), &(mesh_options_t){.vertex_colours = MESH_COLOURS_FACES});
     assert_int_equal(decoder_u32(b.bytes + 128), 0);
     assert_memory_equal(at(&b, 88), mean, 3);
     assert_int_equal(at(&b, 88)[11], 0);
@@ -519,14 +490,14 @@ static void colours_that_differ_within_a_face_are_kept_at_its_vertices(void **st
 
 static void one_colour_a_face_is_its_material(void **state) {
     (void)state;
-    built_t b = load(put_ply("30 0 0 255", "30 0 0 255"), NULL);
+    built_t b = built_load(put_ply("30 0 0 255", "30 0 0 255"), NULL);
     assert_int_equal(decoder_u32(b.bytes + 128), 0);
     assert_int_equal(at(&b, 88)[0], 30);
     free(b.bytes);
-    b = load(put_ply("30 0 0 255", "30 0 0 255"), &(mesh_options_t){.vertex_colours = MESH_COLOURS_VERTICES});
+    b = built_load(put_ply("30 0 0 255", "30 0 0 255"), &(mesh_options_t){.vertex_colours = MESH_COLOURS_VERTICES});
     assert_int_not_equal(decoder_u32(b.bytes + 128), 0);
     free(b.bytes);
-    b = load(put_ply("30 0 0 254", "30 0 0 254"), NULL); /* alpha a face has not */
+    b = built_load(put_ply("30 0 0 254", "30 0 0 254"), NULL); /* alpha a face has not */
     assert_int_not_equal(decoder_u32(b.bytes + 128), 0);
     free(b.bytes);
 }

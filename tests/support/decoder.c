@@ -7,11 +7,11 @@
 
 uint32_t decoder_u32(const uint8_t *p) { return (uint32_t)p[0] + 256u * p[1] + 65536u * p[2] + 16777216u * p[3]; }
 uint32_t decoder_u16(const uint8_t *p) { return (uint32_t)p[0] + 256u * p[1]; }
-static int32_t s16(const uint8_t *p) { return (int32_t)(decoder_u16(p) ^ 32768u) - 32768; }
+int32_t decoder_s16(const uint8_t *p) { return (int32_t)(decoder_u16(p) ^ 32768u) - 32768; }
 static int32_t s8(const uint8_t *p) { return (int32_t)(p[0] ^ 128u) - 128; }
 
 /* Bit by bit, as in the standard. */
-static uint32_t crc_of(const uint8_t *bytes, size_t size_bytes) {
+uint32_t decoder_crc(const uint8_t *bytes, size_t size_bytes) {
     uint32_t crc = 0xffffffff;
     for (size_t i = 0; i < 8 * size_bytes; i++) {
         uint32_t bit = ((uint32_t)bytes[i / 8] >> i % 8 ^ crc) & 1u;
@@ -25,13 +25,13 @@ static decoder_model_t read_model(const uint8_t *b, size_t size_bytes) {
     decoder_model_t m = {.bytes = b};
     assert_memory_equal(b, "TUIL", 4);
     assert_int_equal(decoder_u32(b + 4), size_bytes);
-    assert_int_equal(decoder_u32(b + 8), crc_of(b + 12, size_bytes - 12));
+    assert_int_equal(decoder_u32(b + 8), decoder_crc(b + 12, size_bytes - 12));
     assert_int_equal(decoder_u16(b + 12), 3);
     m.vertex_count = decoder_u32(b + 16);
     m.face_count = decoder_u32(b + 20);
     m.cluster_count = decoder_u32(b + 24);
     m.material_count = decoder_u16(b + 32);
-    m.step = ldexp(decoder_u32(b + 48), s16(b + 46));
+    m.step = ldexp(decoder_u32(b + 48), decoder_s16(b + 46));
     m.materials = b + decoder_u32(b + 88);
     m.faces = calloc(m.face_count, sizeof *m.faces);
     assert_non_null(m.faces);
@@ -51,8 +51,9 @@ static decoder_model_t read_model(const uint8_t *b, size_t size_bytes) {
             const uint8_t *p = b + decoder_u32(b + 64) + 6 * (size_t)v;
             int64_t d = 0, whole = 0;
             for (int i = 0; i < 3; i++) {
-                d += (int64_t)(s16(p + 2 * i) - s16(c + 2 * i)) * (s16(p + 2 * i) - s16(c + 2 * i));
-                whole += (int64_t)(s16(p + 2 * i) - s16(b + 40 + 2 * i)) * (s16(p + 2 * i) - s16(b + 40 + 2 * i));
+                d += (int64_t)(decoder_s16(p + 2 * i) - decoder_s16(c + 2 * i)) * (decoder_s16(p + 2 * i) - decoder_s16(c + 2 * i));
+                whole += (int64_t)(decoder_s16(p + 2 * i) - decoder_s16(b + 40 + 2 * i)) *
+                         (decoder_s16(p + 2 * i) - decoder_s16(b + 40 + 2 * i));
             }
             assert_true(d <= (int64_t)radius * radius);
             assert_true(whole <= (int64_t)decoder_u16(b + 38) * decoder_u16(b + 38));
@@ -80,7 +81,7 @@ static decoder_model_t read_model(const uint8_t *b, size_t size_bytes) {
             for (uint32_t i = 0; i < to->corners; i++) {
                 assert_true(corner[i] < vertices);
                 for (int j = 0; j < 3; j++) {
-                    to->q[i][j] = s16(b + decoder_u32(b + 64) + 6 * (size_t)(vertex + corner[i]) + 2 * j);
+                    to->q[i][j] = decoder_s16(b + decoder_u32(b + 64) + 6 * (size_t)(vertex + corner[i]) + 2 * j);
                     to->normals[i][j] = (int8_t)s8(b + decoder_u32(b + 68) + 3 * (size_t)(vertex + corner[i]) + j);
                 }
             }
@@ -138,7 +139,7 @@ size_t decoder_check_cones(const decoder_model_t *m, int eyes) {
             const uint8_t *c = m->bytes + decoder_u32(m->bytes + 72) + 28 * (size_t)m->faces[f].cluster;
             double d[3], axis[3], n[3];
             for (int k = 0; k < 3; k++) {
-                d[k] = s16(c + 2 * k) - eye[k];
+                d[k] = decoder_s16(c + 2 * k) - eye[k];
                 axis[k] = s8(c + 8 + k);
             }
             double length = sqrt(dot3(axis, axis)), cutoff = c[11] / 254.0;

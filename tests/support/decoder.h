@@ -40,6 +40,10 @@ typedef struct compiled {
 /* Numbers of a compiled model, little-endian. */
 uint32_t decoder_u32(const uint8_t *p);
 uint32_t decoder_u16(const uint8_t *p);
+int32_t decoder_s16(const uint8_t *p);
+
+/* CRC-32, bit by bit: that of models and of PNG files. */
+uint32_t decoder_crc(const uint8_t *bytes, size_t size_bytes);
 
 /* The normal of a face of the grid, as long as twice its area. */
 void decoder_plane(const decoder_face_t *face, double n[3]);

@@ -87,3 +87,11 @@ const char *images_put(const char *name, image_bytes_t bytes) {
     free(bytes.at);
     return path;
 }
+
+void images_put_stripes(const char *name) {
+    static const uint8_t row[] = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255};
+    uint8_t pixels[24];
+    memcpy(pixels, row, 12);
+    memcpy(pixels + 12, row, 12);
+    (void)images_put(name, images_png_rgb(4, 2, pixels, false));
+}

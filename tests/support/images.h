@@ -35,4 +35,7 @@ image_bytes_t images_jpeg(uint32_t width, uint32_t height, const uint8_t *pixels
 /* Into the folder of folder.h; returns its path. */
 const char *images_put(const char *name, image_bytes_t bytes);
 
+/* A PNG file there, 4 x 2, of four colours, left to right, in two rows alike. */
+void images_put_stripes(const char *name);
+
 #endif
