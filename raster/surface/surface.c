@@ -43,9 +43,10 @@ void surface_fill_stages(const surface_t *surface, int32_t x, int32_t y, int32_t
     while (count > 0) {
         uint32_t argb[SURFACE_RUN];
         const int32_t now = count < SURFACE_RUN ? count : SURFACE_RUN;
-        for (unsigned i = 0; i < SURFACE_STAGES && surface->stage[i] != NULL; i++) {
+        unsigned i = 0;
+        do { /* the first stage is there: without any a face is filled with one sample */
             surface->stage[i](surface, x, y, now, argb);
-        }
+        } while (++i < SURFACE_STAGES && surface->stage[i] != NULL);
         store(surface->kind, argb, now, to);
         x += now;
         count -= now;

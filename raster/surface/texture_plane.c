@@ -74,6 +74,7 @@ void texture_plane_make(texture_plane_t *plane, const tuile_texture_t *texture, 
         turned[2] = &corner[1];
         f = (texture_frame_t){f.x2, f.y2, f.x1, f.y1, -f.area, false};
     }
+    if (f.area == 0) { f.area = 1; } /* such a face has no pixel: any plane will do, but not a division by 0 */
     const texture_span3_t x = texture_span3(0, f.x1, f.x2), y = texture_span3(0, f.y1, f.y2);
     f.is_short = x.most - x.least < SHORT_SIDE && y.most - y.least < SHORT_SIDE;
     plane->texture = *texture;
