@@ -2,7 +2,7 @@
 #include "support/check.h"
 #include "support/random.h"
 
-#include "../raster/surface/texture.h"
+#include "../raster/surface/textured.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -245,9 +245,89 @@ static void in_perspective_the_level_follows_the_distance(void **state) {
     }
 }
 
+/* ---- the fast way ---- */
+
+/* The distance of two places on a circle of `size`. */
+static double apart(long double a, long double b, double size) {
+    const double d = fabs(fmod((double)(a - b), size));
+    return d < size - d ? d : size - d;
+}
+
+static void the_fast_way_addresses_within_half_a_texel(void **state) {
+    random_source_t random = random_seed(7);
+    unsigned maps = 0, pixels = 0;
+    double worst = 0;
+    (void)state;
+    for (unsigned round = 0; round < CHECK_ROUNDS(60000); round++) {
+        const unsigned width = (unsigned)random_between(&random, 1, 8), height = (unsigned)random_between(&random, 1, 8);
+        const unsigned bits = (unsigned)random_between(&random, 0, 8);
+        const tuile_texture_t texture = {.texels = (const uint8_t *)"",
+                                         .width = (uint16_t)(1u << width),
+                                         .height = (uint16_t)(1u << height),
+                                         .levels = (uint8_t)random_between(&random, 1, 4)};
+        const tuile_material_t material = {.colour = {255, 255, 255}, .uv_bits = (uint8_t)(8 - bits)};
+        const int32_t size = random_between(&random, 16, 500), span = random_between(&random, 1, 32767 >> bits);
+        const int32_t far = random_between(&random, -1800, 1800) * 16, depth = random_between(&random, 1 << 10, 1 << 23);
+        texture_corner_t c[3], exactly[3];
+        textured_material_t m;
+        textured_map_t map;
+        for (int i = 0; i < 3; i++) {
+            c[i] = (texture_corner_t){far + random_between(&random, 0, size), random_between(&random, i ? 1 : 0, i ? size : 0),
+                                      (uint32_t)(depth - random_between(&random, 0, depth / 8)),
+                                      random_between(&random, -span, span), random_between(&random, -span, span)};
+            exactly[i] = c[i];
+            exactly[i].s = c[i].s * (1 << bits);
+            exactly[i].t = c[i].t * (1 << bits);
+        }
+        if ((c[2].x - c[0].x) * (c[1].y - c[0].y) - (c[1].x - c[0].x) * (c[2].y - c[0].y) <= 0) { continue; }
+        textured_material_open(&m, &material, &texture, 0, true);
+        if (!m.fit || !textured_map(&map, &m, &c[0], &c[1], &c[2], bits)) { continue; }
+        maps++;
+        const double at_level = 1 << m.level.number;
+        for (int32_t y = 0; y <= size >> 4; y++) {
+            for (int32_t x = far >> 4; x <= (far + size) >> 4; x++) {
+                long double st[2];
+                if (!exact(exactly, x, y, true, st)) { continue; }
+                const uint64_t at = map.v + map.dx * (uint64_t)(int64_t)x + map.dy * (uint64_t)(int64_t)y;
+                const uint32_t w = 1u << m.level.width, h = 1u << (height - m.level.number);
+                const double s = ((uint32_t)at >> 16 & (w - 1)) + ((uint32_t)at & 0xffffu) / 65536.0;
+                const double t = ((uint32_t)(at >> 32) / 65536.0) / w;
+                const double off =
+                    fmax(apart(s * at_level, st[0], w * at_level), apart(t * at_level, st[1], fmin(h, 65536.0 / w) * at_level));
+                if (off > 0.5) { fail_msg("round %u, pixel %d,%d: %f texel off", round, x, y, off); }
+                const uint32_t index = textured_index(at, map.mask);
+                assert_true(index < w * h);
+                assert_int_equal(index, (uint32_t)t % h * w + (uint32_t)s);
+                worst = fmax(worst, off);
+                pixels++;
+            }
+        }
+    }
+    print_message("%u faces, %u pixels: at most %.4f texel off\n", maps, pixels, worst);
+    assert_true(maps > 500 && pixels > 10000);
+}
+
+static void the_fast_way_s_light_is_within_a_step(void **state) {
+    double worst_five = 0, worst_six = 0;
+    (void)state;
+    for (uint32_t light = 2; light <= 253; light++) {
+        const uint32_t levels = textured_levels(light << 24);
+        for (uint32_t k = 0; k < 64; k++) {
+            const uint32_t texel = (k & 31) << 11 | k << 5 | (31 - (k & 31)), lit = textured_lit(texel, levels);
+            worst_five = fmax(worst_five, fabs((lit >> 11) - (k & 31) * (light / 255.0)));
+            worst_five = fmax(worst_five, fabs((lit & 31) - (31 - (k & 31)) * (light / 255.0)));
+            worst_six = fmax(worst_six, fabs((lit >> 5 & 63) - k * (light / 255.0)));
+        }
+    }
+    print_message("red and blue %.3f, green %.3f steps\n", worst_five, worst_six);
+    assert_true(worst_five <= 1.0 && worst_six <= 1.25);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(at_every_pixel_the_address_is_within_half_a_texel),
+        cmocka_unit_test(the_fast_way_addresses_within_half_a_texel),
+        cmocka_unit_test(the_fast_way_s_light_is_within_a_step),
         cmocka_unit_test(every_format_gives_its_colours),
         cmocka_unit_test(textures_repeat_or_end_at_their_border),
         cmocka_unit_test(a_texel_that_is_the_key_is_not_there),

@@ -3,7 +3,7 @@
  * below, each as the part of a texel's place in memory that it decides, so that they repeat by themselves.
  *
  * Light: 64 levels. A colour is texel * m / 64, rounded, with m = round(light / 4), light 2 ... 253 of 255: within one step of the
- * exact product for red and blue, 5/4 step for green, which has 64.
+ * exact product (0.71 for red and blue, 0.95 for green, which has 64).
  */
 #ifndef TUILE_FILL_TEXTURED_H
 #define TUILE_FILL_TEXTURED_H
