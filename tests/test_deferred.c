@@ -204,11 +204,43 @@ static void textures_are_drawn_alike_at_once_and_deferred(void **state) {
     }
 }
 
+/* Faces that are deferred, and others that are drawn at once, through one another and in the very same places, in either order. */
+static void faces_drawn_at_once_and_deferred_ones_hide_one_another(void **state) {
+    (void)state;
+    for (unsigned order = 0; order < 4; order++) {
+        textured_model_t m;
+        tuile_material_t soft[2], fine[2];
+        tuile_instance_t instances[4];
+        textured_open(&m, TUILE_TEXEL_RGB565, 1, 20, 120, 160);
+        for (unsigned k = 0; k < 2; k++) {
+            soft[k] = fine[k] = m.material[k];
+            soft[k].flags = TUILE_MATERIAL_BILINEAR;
+            fine[k].uv_bits = 6;
+        }
+        for (unsigned k = 0; k < 4; k++) {
+            instances[k] = m.stage.view.instance;
+            instances[k].materials = (k ^ order) & 1 ? m.material : (k ^ order) & 2 ? fine : soft;
+            if (k >= 2) { /* across the first two, which stand in one place */
+                for (unsigned r = 0; r < 3; r++) {
+                    const q2_30_t held = instances[k].pose.rotation[r][1];
+                    instances[k].pose.rotation[r][1] = -instances[k].pose.rotation[r][2];
+                    instances[k].pose.rotation[r][2] = held;
+                }
+            }
+        }
+        m.stage.view.scene.instances = instances;
+        m.stage.view.scene.instance_count = 4;
+        check_textured(&m, "four in one another");
+        textured_close(&m);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(deferred_torus),
         cmocka_unit_test(deferred_room),
         cmocka_unit_test(textures_are_drawn_alike_at_once_and_deferred),
+        cmocka_unit_test(faces_drawn_at_once_and_deferred_ones_hide_one_another),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
