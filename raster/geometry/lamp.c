@@ -115,7 +115,7 @@ void lamps_make(lamps_t *lamps, const tuile_scene_t *scene, const tuile_instance
 
 /* a * 2^up, cut where it is made smaller. |a| <= 2^24, up <= 38. */
 TUILE_INLINE int64_t scaled_by(int32_t a, int up) {
-    return up >= 0 ? fixed_shift_left64(a, (unsigned)up) : a >> (up < -31 ? 31 : -up);
+    return up >= 0 ? fixed_shift_left64(a, (unsigned)up) : a >> (up < -30 ? 30 : -up);
 }
 
 /* The way to a lamp and its falloff in 1/65536, 65535 at most; false where it does not reach. */
