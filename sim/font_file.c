@@ -1,9 +1,9 @@
 /* Fonts in files, and what users say of them. */
 #include "../raster/overlay/font.h"
 #include "c_source.h"
+#include "compiled.h"
 #include "font.h"
 #include "input.h"
-#include "output.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -43,37 +43,16 @@ int font_ranges_parse(const char *text, font_range_t ranges[FONT_RANGES_MAX], si
 
 /* ---- writing ---- */
 
-static int put_source(FILE *file, const uint8_t *bytes, size_t size_bytes, const char *name) {
+static void put_heading(FILE *file, const uint8_t *bytes, size_t size_bytes, const char *name) {
     (void)fprintf(file,
                   "/* A compiled font for tuile_font_open(&font, %s, sizeof %s).\n"
                   " * %u glyphs, lines of %u dots, %zu bytes. The words are little-endian, as the machine has to be. */\n",
                   name, name, bytes[FONT_AT_GLYPHS] | (unsigned)bytes[FONT_AT_GLYPHS + 1] << 8, bytes[FONT_AT_HEIGHT], size_bytes);
-    return c_put_words(file, bytes, size_bytes, name);
 }
 
 int font_write(const uint8_t *bytes, size_t size_bytes, const char *path, const char *name, sim_error_t *error) {
-    char made_up[C_NAME_MAX_CHARS + 1];
-    const bool source = strcmp(c_extension(path), ".c") == 0;
-    output_t output;
-    if (!source && strcmp(c_extension(path), ".tuilefont") != 0) {
-        return sim_fail(error, "%s: compiled fonts are .tuilefont or .c files; give it one of these ends", path);
-    }
-    if (source && (!name || !*name)) {
-        c_default_name(path, "font_", made_up);
-        name = made_up;
-    }
-    if (source && !c_is_identifier(name)) {
-        return sim_fail(error, "\"%.80s\" is no name for an object in C; take a letter, then letters, digits and _, at most %d",
-                        name, C_NAME_MAX_CHARS);
-    }
-    if (output_open(&output, path, error) != 0) { return -1; }
-    errno = 0;
-    if (source ? put_source(output.file, bytes, size_bytes, name) != 0 : fwrite(bytes, 1, size_bytes, output.file) != size_bytes) {
-        const int reason = errno ? errno : EIO;
-        output_discard(&output);
-        return sim_fail(error, "%s: cannot write: %s", path, strerror(reason));
-    }
-    return output_close(&output, error);
+    static const compiled_kind_t kind = {"fonts", ".tuilefont", "font_", put_heading};
+    return compiled_write(&kind, bytes, size_bytes, path, name, error);
 }
 
 /* ---- reading ---- */
@@ -101,6 +80,8 @@ int font_load(const char *path, uint8_t **bytes, size_t *size_bytes, sim_error_t
     uint8_t *text;
     size_t text_bytes;
     if (!path) {
+        /* Both are labels in one file's bytes (font_default.c). */
+        /* cppcheck-suppress comparePointers */
         return compile_text(font_default_text, (size_t)(font_default_end - font_default_text), "tuile-6x10.bdf", bytes, size_bytes,
                             error);
     }
