@@ -1,6 +1,7 @@
 /* Deferred shading: the picture of a scene that wants no effects is the one that is drawn without them, by all methods, in any
  * memory, through any tiles. */
 #include "support/check.h"
+#include "support/compare.h"
 #include "support/frame.h"
 #include "support/models.h"
 #include "support/stage.h"
@@ -30,39 +31,14 @@ static void inside_open(inside_t *in, uint16_t width, uint16_t height) {
     view_frame(&in->view, 0);
 }
 
-/* The tree decides ties otherwise than depth does, so it is compared with itself. */
 static void compare(const tuile_scene_t *scene, tuile_config_t config, const char *name) {
-    static const uint16_t tiles[][2] = {{0, 0}, {32, 32}, {40, 7}};
     for (unsigned shade = 0; shade < 2; shade++) {
         uint8_t *expected[2];
         config.shade = (uint8_t)shade;
         config.effects = shade == 0 ? 0 : TUILE_SURFACES;
-        for (unsigned i = 0; i < 2; i++) {
-            config.method = i == 0 ? TUILE_ZBUFFER : TUILE_TREE;
-            expected[i] = frame_draw(scene, &config, (size_t)4 << 20, NULL);
-        }
+        compare_expected(scene, &config, expected);
         config.effects = TUILE_SURFACES;
-        for (unsigned k = 0; k < CHECK_COUNT(tiles) * (TUILE_TREE + 1); k++) {
-            tuile_config_t c = config;
-            c.method = (uint8_t)(k % (TUILE_TREE + 1));
-            c.tile_width = tiles[k / (TUILE_TREE + 1)][0];
-            c.tile_height = tiles[k / (TUILE_TREE + 1)][1];
-            uint8_t *picture = frame_draw(scene, &c, (size_t)4 << 20, NULL);
-            if (memcmp(picture, expected[c.method == TUILE_TREE], frame_bytes(&c)) != 0) {
-                fail_msg("%s: shade %u, method %u, tiles %u: another picture", name, shade, c.method, k / (TUILE_TREE + 1));
-            }
-            free(picture);
-        }
-        for (unsigned k = 0; k < 24; k++) {
-            tuile_config_t c = config;
-            c.method = k % 2 ? TUILE_TREE : TUILE_ZBUFFER;
-            const size_t size = frame_least_bytes(&c) + (k / 2) * (k / 2) * 128;
-            uint8_t *picture = frame_draw(scene, &c, size, NULL);
-            if (memcmp(picture, expected[k % 2], frame_bytes(&c)) != 0) {
-                fail_msg("%s: shade %u, method %u, %zu bytes: another picture", name, shade, c.method, size);
-            }
-            free(picture);
-        }
+        compare_all_ways(scene, &config, expected, 0, name);
         free(expected[0]);
         free(expected[1]);
     }

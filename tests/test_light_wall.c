@@ -1,6 +1,7 @@
 /* Light in colours and fog in whole frames: the same bits by every method, through any tiles and in any memory; and a face before
  * an orthographic camera, whose colour can be told by hand. */
 #include "support/check.h"
+#include "support/compare.h"
 #include "support/frame.h"
 #include "support/models.h"
 #include "support/stage.h"
@@ -54,36 +55,12 @@ static void lit_fog(lit_stage_t *s, unsigned kind) {
 }
 
 static void compare(const tuile_scene_t *scene, tuile_config_t config, const char *name) {
-    static const uint16_t tiles[][2] = {{0, 0}, {32, 32}, {40, 7}};
     config.effects = TUILE_SURFACES;
     for (unsigned shade = 0; shade < 2; shade++) {
         uint8_t *expected[2];
         config.shade = (uint8_t)shade;
-        for (unsigned i = 0; i < 2; i++) {
-            config.method = i == 0 ? TUILE_ZBUFFER : TUILE_TREE;
-            expected[i] = frame_draw(scene, &config, (size_t)4 << 20, NULL);
-        }
-        for (unsigned k = 0; k < CHECK_COUNT(tiles) * (TUILE_TREE + 1); k++) {
-            tuile_config_t c = config;
-            c.method = (uint8_t)(k % (TUILE_TREE + 1));
-            c.tile_width = tiles[k / (TUILE_TREE + 1)][0];
-            c.tile_height = tiles[k / (TUILE_TREE + 1)][1];
-            uint8_t *picture = frame_draw(scene, &c, (size_t)4 << 20, NULL);
-            if (memcmp(picture, expected[c.method == TUILE_TREE], frame_bytes(&c)) != 0) {
-                fail_msg("%s: shade %u, method %u, tiles %u: another picture", name, shade, c.method, k / (TUILE_TREE + 1));
-            }
-            free(picture);
-        }
-        for (unsigned k = 0; k < 24; k++) {
-            tuile_config_t c = config;
-            c.method = k % 2 ? TUILE_TREE : TUILE_ZBUFFER;
-            const size_t size = frame_least_bytes(&c) + TUILE_LIGHTS_BYTES(scene->light_count) + (k / 2) * (k / 2) * 128;
-            uint8_t *picture = frame_draw(scene, &c, size, NULL);
-            if (memcmp(picture, expected[k % 2], frame_bytes(&c)) != 0) {
-                fail_msg("%s: shade %u, method %u, %zu bytes: another picture", name, shade, c.method, size);
-            }
-            free(picture);
-        }
+        compare_expected(scene, &config, expected);
+        compare_all_ways(scene, &config, expected, TUILE_LIGHTS_BYTES(scene->light_count), name);
         free(expected[0]);
         free(expected[1]);
     }
