@@ -209,13 +209,7 @@ static TUILE_NOINLINE void clear_hidden(tuile_t *t, const record_t *record, uint
                                         int32_t right, int32_t bottom) {
     const bool triangle = frame_record_is_triangle(record);
     depth_plane_t plane;
-    if (triangle) {
-        const vertex_t *v0 = &t->vertices[record->v0];
-        triangle_planes(v0, v0 + record->d1, v0 + record->d2, &plane, NULL);
-    } else {
-        const polygon_ring_t ring = frame_record_ring(t, record);
-        (void)polygon_plane(&ring, &plane);
-    }
+    if (!shade_depth(t, record, &plane)) { return; } /* without an area it was never drawn */
     for (int32_t y = top; y < bottom; y++) {
         const size_t row = (size_t)(y - t->tile.top) * (size_t)t->tile.stride_px;
         for (int32_t x = left; x < right; x++) {

@@ -14,7 +14,6 @@
 #define S_BITS 18u
 #define Q_BITS 24u
 #define Q_FRACTION 18u
-#define U_FRACTION 0u
 
 /* ---- perspective ---- */
 
@@ -49,13 +48,13 @@ static TUILE_NOINLINE void perspective_make(texture_plane_t *plane, const textur
         v[i] = q[i] * cut_off(dt, cut);
     }
     plane->perspective = true;
-    plane->u = gradient64(f, corner[0], u[0], u[1], u[2], U_FRACTION);
-    plane->v = gradient64(f, corner[0], v[0], v[1], v[2], U_FRACTION);
+    plane->u = gradient64(f, corner[0], u[0], u[1], u[2], 0);
+    plane->v = gradient64(f, corner[0], v[0], v[1], v[2], 0);
     plane->q = gradient64(f, corner[0], q[0], q[1], q[2], Q_FRACTION);
     plane->s0 = corner[0]->s * 256;
     plane->t0 = corner[0]->t * 256;
     /* texels Q16.16 = u / (q / 2^18) * 2^cut * 2^8 */
-    plane->shift = (int8_t)(8 + (int)Q_FRACTION - (int)U_FRACTION + cut);
+    plane->shift = (int8_t)(8 + (int)Q_FRACTION + cut);
     const int64_t q_least = (int64_t)(((uint64_t)least << n) >> (32 - Q_BITS));
     plane->q_least = (q_least > 1 ? q_least : 1) << (Q_FRACTION - 1);
     for (unsigned i = 0; plane->mips && i < 3; i++) {
