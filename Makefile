@@ -18,7 +18,7 @@ WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wpointer-arith -W
 CFLAGS_CORE := -std=c11 -O2 -g -ffreestanding -fno-pie $(WARN) # as on a board: constants with pointers are read-only
 LDFLAGS := -no-pie
 CFLAGS_HOST := -std=c11 -O2 -g -D_GNU_SOURCE $(WARN)
-LIBS_SIM := -lassimp -lmeshoptimizer -lpng -ljpeg -lm
+LIBS_SIM := -lassimp -lmeshoptimizer -lpng -ljpeg -lgpiod -lusb-1.0 -llz4 -lpthread -lm
 LIBS_TEST := -lcmocka
 ifeq ($(VARIANT),asan)
 CFLAGS_CORE += -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
@@ -26,7 +26,8 @@ CFLAGS_HOST += -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-
 LDFLAGS += -fsanitize=address,undefined
 endif
 
-CORE_SRC := $(wildcard raster/*.c raster/*/*.c hal/*.c hal/*/*.c) firmware/stream.c
+CORE_SRC := $(wildcard raster/*.c raster/*/*.c hal/*.c hal/panels/*.c hal/template/*.c) firmware/stream.c
+HOSTED_SRC := $(wildcard hal/linux/*.c hal/usb/*.c) # the ports that have an operating system under them
 SIM_SRC := $(wildcard sim/*.c sim/*/*.c)
 REFERENCE_SRC := $(wildcard tests/reference/*.c)
 SUPPORT_SRC := $(wildcard tests/support/*.c)
@@ -36,7 +37,7 @@ FUZZ_SRC := $(wildcard tests/fuzz_*.c)
 
 objects = $(patsubst %.c,$(OBJ)/%.o,$(1))
 CORE_OBJ := $(call objects,$(CORE_SRC))
-SIM_OBJ := $(call objects,$(SIM_SRC))
+SIM_OBJ := $(call objects,$(SIM_SRC) $(HOSTED_SRC))
 SIM_LIB_OBJ := $(filter-out $(OBJ)/sim/main.o,$(SIM_OBJ))
 TEST_LIB_OBJ := $(call objects,$(REFERENCE_SRC) $(SUPPORT_SRC))
 TESTS := $(patsubst tests/%.c,$(OBJ)/%,$(TEST_SRC))
@@ -67,8 +68,8 @@ help: ## this list
 
 all: $(TUILE) ## build the simulator, build/tuile
 
-$(BUILD)/need/sim: ; $(call need,libassimp-dev libmeshoptimizer-dev libpng-dev libjpeg62-turbo-dev,model import + simplification + pictures)
-$(BUILD)/need/test: ; $(call need,libcmocka-dev,tests)
+$(BUILD)/need/sim: ; $(call need,libassimp-dev libmeshoptimizer-dev libpng-dev libjpeg62-turbo-dev libgpiod-dev libusb-1.0-0-dev liblz4-dev,model import + simplification + pictures + displays)
+$(BUILD)/need/test: ; $(call need,libcmocka-dev umockdev libumockdev-dev pkg-config,tests)
 $(BUILD)/need/mesa: ; $(call need,libosmesa6-dev,a second renderer to compare with)
 $(BUILD)/need/clang: ; $(call need,clang libclang-rt-14-dev,a second compiler)
 $(BUILD)/need/bench: ; $(call need,valgrind,instruction counts)
@@ -82,6 +83,10 @@ $(CORE_OBJ): $(OBJ)/%.o: %.c Makefile
 	@echo "  $(notdir $(CC)) $<"; $(CC) $(CFLAGS_CORE) -MMD -MP -c $< -o $@
 
 $(OBJ)/sim/%.o: sim/%.c Makefile | $(BUILD)/need/sim
+	@mkdir -p $(@D)
+	@echo "  $(notdir $(CC)) $<"; $(CC) $(CFLAGS_HOST) -MMD -MP -c $< -o $@
+
+$(call objects,$(HOSTED_SRC)): $(OBJ)/%.o: %.c Makefile | $(BUILD)/need/sim
 	@mkdir -p $(@D)
 	@echo "  $(notdir $(CC)) $<"; $(CC) $(CFLAGS_HOST) -MMD -MP -c $< -o $@
 
@@ -239,9 +244,9 @@ format: $(BUILD)/need/format ## clang-format all sources
 	clang-format -i $(FORMATTED)
 
 lint: $(BUILD)/need/lint $(BUILD)/need/sim $(BUILD)/need/test ## clang-tidy and cppcheck
-	clang-tidy --quiet --warnings-as-errors='*' $(filter-out hal/template/%,$(CORE_SRC)) $(SIM_SRC) -- -std=c11 -D_GNU_SOURCE
+	clang-tidy --quiet --warnings-as-errors='*' $(filter-out hal/template/%,$(CORE_SRC)) $(HOSTED_SRC) $(SIM_SRC) -- -std=c11 -D_GNU_SOURCE
 	cppcheck --quiet --error-exitcode=1 --std=c11 --inline-suppr --enable=warning,performance,portability \
-	  --suppress=missingIncludeSystem --suppress=shiftNegativeLHS $(CORE_SRC) $(SIM_SRC)
+	  --suppress=missingIncludeSystem --suppress=shiftNegativeLHS $(CORE_SRC) $(HOSTED_SRC) $(SIM_SRC)
 
 clean: ## remove build/
 	rm -rf $(BUILD)

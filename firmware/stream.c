@@ -1,12 +1,35 @@
 #include "stream.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
+/* Both number their formats alike, so that neither has to include the other. */
+#define SAME(format, wire) _Static_assert((int)(format) + 1 == (int)(wire), "the numbers of formats differ")
+SAME(TUILE_RGB565_BE, TUILE_WIRE_RGB565);
+SAME(TUILE_RGB565_LE, TUILE_WIRE_RGB565_LE);
+SAME(TUILE_RGB444, TUILE_WIRE_RGB444);
+SAME(TUILE_RGB666, TUILE_WIRE_RGB666);
+SAME(TUILE_RGB332, TUILE_WIRE_RGB332);
+SAME(TUILE_GREY8, TUILE_WIRE_GREY8);
+SAME(TUILE_GREY4, TUILE_WIRE_GREY4);
+SAME(TUILE_MONO_PAGES, TUILE_WIRE_MONO_PAGES);
+SAME(TUILE_MONO_ROWS, TUILE_WIRE_MONO_ROWS);
+
+uint8_t tuile_stream_format(const tuile_display_t *display) { return (uint8_t)(display->wire - 1u); }
+
+/* A tile is whole pixels of its own, and so must be its window. */
+static bool aligned(uint16_t tile, uint16_t size, uint8_t align) {
+    return tile % align == 0 || (tile >= size && size % align == 0);
+}
+
 static int check(const tuile_config_t *config, const tuile_display_t *display) {
-    const bool short_pixels = config->format == TUILE_RGB565_BE && display->config.wire == TUILE_WIRE_RGB565;
-    const bool long_pixels = config->format == TUILE_RGB666 && display->config.wire == TUILE_WIRE_RGB666;
-    if (!short_pixels && !long_pixels) { return TUILE_ERROR_ARGUMENT; }
-    return config->width == display->width && config->height == display->height ? TUILE_OK : TUILE_ERROR_ARGUMENT;
+    if (config->format + 1u != display->wire || config->width != display->width || config->height != display->height) {
+        return TUILE_ERROR_ARGUMENT;
+    }
+    return aligned(config->tile_width, config->width, display->align_x) &&
+                   aligned(config->tile_height, config->height, display->align_y)
+               ? TUILE_OK
+               : TUILE_ERROR_ARGUMENT;
 }
 
 static int send(tuile_display_t *display, const tuile_tile_t *tile, unsigned buffers) {

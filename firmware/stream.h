@@ -5,9 +5,12 @@
 #include "../hal/display.h"
 #include "../raster/tuile.h"
 
+/* The renderer's format (tuile_format_t) whose bytes an initialised display takes. */
+uint8_t tuile_stream_format(const tuile_display_t *display);
+
 /* Draws one frame and sends it. With two tile buffers (tuile_config_t.buffers) a tile is on the wire while the next is drawn.
- * The renderer's window must be as large as the display, and its format the display's (TUILE_RGB565_BE for
- * TUILE_WIRE_RGB565, TUILE_RGB666 for TUILE_WIRE_RGB666), else TUILE_ERROR_ARGUMENT before anything is drawn.
+ * The renderer's window must be as large as the display, its format the display's (tuile_stream_format) and its tiles aligned as
+ * the display's windows are, else TUILE_ERROR_ARGUMENT before anything is drawn.
  *
  * Returns 0, a tuile_error_t (-1 ... -31) from the renderer or a tuile_hal_error_t (-33 and below) from the display: the one
  * that came first. A display's error sticks in the display, so it is not lost behind a renderer's. Whatever happens, the

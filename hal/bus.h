@@ -24,6 +24,11 @@ typedef enum tuile_hal_error {
     TUILE_HAL_TIMEOUT = -37,     /* a transfer, or the tearing line, did not come to an end */
     TUILE_HAL_PROTOCOL = -38,    /* the far end refused what it got */
     TUILE_HAL_GONE = -39,        /* the device is no longer there: final until it is opened anew */
+    TUILE_HAL_BUSY = -40,        /* somebody else has the line or the device */
+    TUILE_HAL_NOT_FOUND = -41,   /* no such device, line or chip */
+    TUILE_HAL_PERMISSION = -42,  /* it is there, but not for this user */
+    TUILE_HAL_SIZE = -43,        /* a transfer is larger than the system takes */
+    TUILE_HAL_IDENTITY = -44,    /* another panel answered */
 } tuile_hal_error_t;
 
 /* One line of English about a tuile_hal_error_t; never NULL. */

@@ -3,8 +3,8 @@
 # libc but the four functions every compiler may call. Usage: objects.sh OBJECT...
 set -eu
 status=0
-# Freestanding: none of a hosted library's headers.
-if grep -nE '#include <' -r raster hal firmware --include='*.c' --include='*.h' | grep -vE '<(stdbool|stddef|stdint|limits|stdalign)\.h>'; then
+# Freestanding: none of a hosted library's headers, but in the ports for hosts.
+if grep -nE '#include <' -r raster hal firmware --include='*.c' --include='*.h' | grep -vE '^hal/(linux|usb)/' | grep -vE '<(stdbool|stddef|stdint|limits|stdalign)\.h>'; then
     echo "objects: hosted headers above"
     status=1
 fi

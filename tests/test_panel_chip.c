@@ -38,7 +38,8 @@ static void test_rotations_through_window_splits(void **state) {
 
     (void)state;
     for (uint8_t rotation = 0; rotation < 4; rotation++) {
-        for (uint8_t wire = TUILE_WIRE_RGB565; wire <= TUILE_WIRE_RGB666; wire++) {
+        for (unsigned long_pixels = 0; long_pixels < 2; long_pixels++) {
+            const uint8_t wire = long_pixels ? TUILE_WIRE_RGB666 : TUILE_WIRE_RGB565;
             for (size_t i = 0; i < sizeof splits / sizeof splits[0]; i++) {
                 board_t board;
                 board_open(&board, &(sim_bus_config_t){.max_chunk_bytes = i == 2 ? 4095 : 0});
@@ -193,7 +194,10 @@ static void test_reading(void **state) {
     assert_int_equal(bus->read(bus->context, 0x0C, &byte, 1), 0);
     assert_int_equal(byte, 0x55);
     assert_int_equal(bus->read(bus->context, 0x0A, &byte, 1), 0);
-    assert_int_equal(byte, 0x9C); /* booster, sleep out, normal mode, display on */
+    assert_int_equal(byte, 0x98); /* booster, sleep out, normal mode */
+    assert_int_equal(tuile_display_present(&board.display), 0);
+    assert_int_equal(bus->read(bus->context, 0x0A, &byte, 1), 0);
+    assert_int_equal(byte, 0x9C); /* and display on, with the first frame */
     assert_int_equal(bus->read(bus->context, 0x2E, &byte, 1), TUILE_HAL_PROTOCOL);
     board_close(&board);
 }

@@ -126,6 +126,7 @@ static void test_time_on_the_wire(void **state) {
     board_open(&board, &(sim_bus_config_t){.command_gap_ns = 1000, .chunk_gap_ns = 2000, .max_chunk_bytes = 4096});
     config.bus = &board.bus.bus;
     assert_int_equal(tuile_display_init(&board.display, &config), 0);
+    assert_int_equal(tuile_display_present(&board.display), 0); /* switches the panel on, which only the first frame does */
     memset(&board.bus.counts, 0, sizeof board.bus.counts);
     before_ns = board.bus.now_ns;
     tuile_display_window(&board.display, 0, 0, 240, 320);
@@ -172,6 +173,7 @@ static void test_work_overlaps_the_wire(void **state) {
         config.bus = &board.bus.bus;
         assert_int_equal(tuile_display_init(&board.display, &config), 0);
         assert_int_equal(board.chip->warnings, 0);
+        assert_int_equal(tuile_display_present(&board.display), 0);
         memset(&board.bus.counts, 0, sizeof board.bus.counts);
         before_ns = board.bus.now_ns;
         for (uint32_t i = 0; i < 10; i++) {
@@ -246,6 +248,7 @@ static const char *fake_error_text(int error) { return error ? "renderer" : "no 
 #define tuile_error_text fake_error_text
 #define tuile_stream_frame stream_frame_under_test
 #define tuile_stream_error_text stream_error_text_under_test
+#define tuile_stream_format stream_format_under_test
 #define check stream_check
 #define send stream_send
 #include "../firmware/stream.c"
@@ -320,6 +323,27 @@ static void test_stream_refuses_a_mismatch(void **state) {
     board_close(&board);
 }
 
+/* A panel whose bytes are 8 rows takes no window that begins within one. */
+static void test_stream_refuses_tiles_that_are_not_aligned(void **state) {
+    static tuile_t renderer;
+    board_t board;
+    tuile_panel_t panel = tuile_ili9341;
+
+    (void)state;
+    open_stream(&board, &renderer, NULL, 2);
+    panel.align_y = 64;
+    panel.align_x = 240;
+    assert_int_equal(tuile_display_init(&board.display, &(tuile_display_config_t){.bus = &board.bus.bus, .panel = &panel}), 0);
+    renderer.config.tile_width = 240;
+    renderer.config.tile_height = 32;
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), TUILE_ERROR_ARGUMENT);
+    assert_int_equal(renderer.begun, 0);
+    renderer.config.tile_height = 1024; /* larger than the window: one tile */
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), TUILE_HAL_ARGUMENT); /* fakes strips of 32 */
+    assert_int_equal(renderer.begun, 1);
+    board_close(&board);
+}
+
 static void test_stream_renderer_errors(void **state) {
     static tuile_t renderer;
     board_t board;
@@ -381,7 +405,7 @@ static void test_stream_both_fail(void **state) {
     board_t board;
 
     (void)state;
-    open_stream(&board, &renderer, &(sim_bus_config_t){.fail_transfer = 25}, 2); /* the data of tile 0 */
+    open_stream(&board, &renderer, &(sim_bus_config_t){.fail_transfer = 24}, 2); /* the data of tile 0 */
     assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
     renderer.next_error = TUILE_ERROR_RANGE;
     renderer.fail_at = 1;
@@ -417,6 +441,7 @@ int main(void) {
         cmocka_unit_test(test_stream_frame),
         cmocka_unit_test(test_stream_overlaps_with_two_buffers_only),
         cmocka_unit_test(test_stream_refuses_a_mismatch),
+        cmocka_unit_test(test_stream_refuses_tiles_that_are_not_aligned),
         cmocka_unit_test(test_stream_renderer_errors),
         cmocka_unit_test(test_stream_display_faults),
         cmocka_unit_test(test_stream_both_fail),

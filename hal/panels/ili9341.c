@@ -52,8 +52,11 @@ static const uint8_t on[] = {1, 0x29}; /* (8.2.19) */
 static const uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)};
 static const uint8_t tearing[] = {2, 0x35, 0x00}; /* vertical blank only (8.2.28) */
 
+#define MODES \
+    {0, TUILE_EXCHANGE | TUILE_MIRROR_X, TUILE_MIRROR_X | TUILE_MIRROR_Y, TUILE_EXCHANGE | TUILE_MIRROR_Y}
+
 const tuile_panel_t tuile_ili9341 = {
-    .name = "ILI9341",
+    .name = "ili9341",
     .ram_width = 240,
     .ram_height = 320,
     .view_width = 240,
@@ -69,15 +72,20 @@ const tuile_panel_t tuile_ili9341 = {
     /* The glass is wired in reverse along one axis. Either MX is set in each rotation (and B6h is 82h), or the gates are scanned
      * from the other end: C2h, as here, and then the RAM is as the picture is. Mixing the two gives a mirrored picture. */
     .rotation_base = TUILE_MADCTL_BGR,
-    .rotation = {0, TUILE_MADCTL_MV | TUILE_MADCTL_MX, TUILE_MADCTL_MX | TUILE_MADCTL_MY, TUILE_MADCTL_MV | TUILE_MADCTL_MY},
+    .order_bit = TUILE_MADCTL_BGR,
+    .rotation = MODES,
+    .mode = MODES,
     .format_count = 2,
-    .formats = {{TUILE_WIRE_RGB565, 16, 0x55}, {TUILE_WIRE_RGB666, 24, 0x66}},
+    .formats = {{TUILE_WIRE_RGB565, 0x55, 0}, {TUILE_WIRE_RGB666, 0x66, 0}},
+    .id_command = 0xD3, /* (8.3.23) */
+    .id_count = 3,
+    .id = {0x00, 0x93, 0x41},
     .reset_low_ms = 1,    /* 10 us are asked for (12.2) */
     .reset_wait_ms = 120, /* 5 ms, but 120 before sleep out if it was awake, which nobody can know (8.2.2) */
-    .init = {init, sizeof init},
-    .on = {on, sizeof on},
-    .sleep = {sleep_sequence, sizeof sleep_sequence},
-    .tearing = {tearing, sizeof tearing},
+    .init = TUILE_SEQUENCE(init),
+    .on = TUILE_SEQUENCE(on),
+    .sleep = TUILE_SEQUENCE(sleep_sequence),
+    .tearing = TUILE_SEQUENCE(tearing),
     .command_clock_hz = 10000000,
     .pixel_clock_hz = 40000000,
     .rated_pixel_clock_hz = 10000000, /* write cycle 100 ns (18.3.4); modules run at 27 to 80 MHz */
