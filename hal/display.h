@@ -69,7 +69,8 @@ typedef struct tuile_display {
 int tuile_display_init(tuile_display_t *display, const tuile_display_config_t *config);
 
 /* Where the next pixels go: row by row, in the picture's own coordinates. 0 <= x, x + width <= display->width, likewise y;
- * multiples of the display's alignment. The first window of a frame waits for the tearing-effect line if the display was told to. */
+ * multiples of the display's alignment. The first window of a frame waits for the tearing-effect line if the display was told to.
+ */
 int tuile_display_window(tuile_display_t *display, uint32_t x, uint32_t y, uint32_t width, uint32_t height);
 
 /* Sends pixels in wire order into the window, whole pixels, no more than fit into what is left of it. May return early, see
@@ -94,8 +95,8 @@ int tuile_display_sleep(tuile_display_t *display);
 int tuile_display_resume(tuile_display_t *display);
 
 /* Leaves the panel dark and asleep, whatever errors there were before, unless the device is gone or sleeps already; then the
- * display refuses everything with TUILE_HAL_STATE. The bus or device is the caller's to close. Returns what putting it to sleep came to.
- * For the end of a program, signals included. */
+ * display refuses everything with TUILE_HAL_STATE. The bus or device is the caller's to close. Returns what putting it to sleep
+ * came to. For the end of a program, signals included. */
 int tuile_display_close(tuile_display_t *display);
 
 #endif

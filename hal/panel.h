@@ -131,7 +131,7 @@ typedef struct tuile_panel_state {
     uint8_t format_code;
     uint8_t unit_bytes; /* chunks are multiples of it */
     bool identify;
-    bool in_frame;  /* a window has been set since the last frame */
+    bool in_frame; /* a window has been set since the last frame */
 } tuile_panel_state_t;
 
 /* The driver, for hal/display.c; its context is a tuile_panel_state_t. */

@@ -339,7 +339,8 @@ static void test_stream_refuses_tiles_that_are_not_aligned(void **state) {
     assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), TUILE_ERROR_ARGUMENT);
     assert_int_equal(renderer.begun, 0);
     renderer.config.tile_height = 1024; /* larger than the window: one tile */
-    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), TUILE_HAL_ARGUMENT); /* fakes strips of 32 */
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL),
+                     TUILE_HAL_ARGUMENT); /* fakes strips of 32 */
     assert_int_equal(renderer.begun, 1);
     board_close(&board);
 }
