@@ -32,6 +32,7 @@ SIM_SRC := $(wildcard sim/*.c sim/*/*.c)
 REFERENCE_SRC := $(wildcard tests/reference/*.c)
 SUPPORT_SRC := $(wildcard tests/support/*.c)
 MESA_SRC := $(wildcard tests/mesa/*.c)
+MOCK_SRC := $(wildcard tests/mock/*.c) # made-up devices for tests/test_mock_*.c
 TEST_SRC := $(wildcard tests/test_*.c)
 FUZZ_SRC := $(wildcard tests/fuzz_*.c)
 
@@ -41,6 +42,7 @@ SIM_OBJ := $(call objects,$(SIM_SRC) $(HOSTED_SRC))
 SIM_LIB_OBJ := $(filter-out $(OBJ)/sim/main.o,$(SIM_OBJ))
 TEST_LIB_OBJ := $(call objects,$(REFERENCE_SRC) $(SUPPORT_SRC))
 TESTS := $(patsubst tests/%.c,$(OBJ)/%,$(TEST_SRC))
+MOCK_TESTS := $(filter $(OBJ)/test_mock_%,$(TESTS))
 FUZZERS := $(patsubst tests/%.c,$(OBJ)/%,$(FUZZ_SRC))
 
 ifeq ($(VARIANT),release)
@@ -92,7 +94,7 @@ $(call objects,$(HOSTED_SRC)): $(OBJ)/%.o: %.c Makefile | $(BUILD)/need/sim
 
 $(OBJ)/tests/%.o: tests/%.c Makefile | $(BUILD)/need/test $(BUILD)/need/sim
 	@mkdir -p $(@D)
-	@echo "  $(notdir $(CC)) $<"; $(CC) $(CFLAGS_HOST) -MMD -MP -c $< -o $@
+	@echo "  $(notdir $(CC)) $<"; $(CC) $(CFLAGS_HOST) $(CFLAGS_TEST) -MMD -MP -c $< -o $@
 
 # The default font stands in its object as it is.
 $(OBJ)/sim/font_default.o: sim/fonts/tuile-6x10.bdf
@@ -107,6 +109,11 @@ $(OBJ)/test_%: $(OBJ)/tests/test_%.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
 $(call objects,$(MESA_SRC)): | $(BUILD)/need/mesa
 $(OBJ)/test_mesa: $(call objects,$(MESA_SRC))
 $(OBJ)/test_mesa: LIBS_TEST += -lOSMesa
+
+# Under umockdev, see RUN_TESTS.
+$(MOCK_TESTS): $(call objects,$(MOCK_SRC))
+$(MOCK_TESTS): LIBS_TEST += -lumockdev -lgobject-2.0 -lglib-2.0
+$(patsubst $(OBJ)/%,$(OBJ)/tests/%.o,$(MOCK_TESTS)) $(call objects,$(MOCK_SRC)): CFLAGS_TEST = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags umockdev-1.0))
 
 $(OBJ)/tests/fuzz_%.o: CFLAGS_HOST += -DFUZZ_DRIVER
 $(OBJ)/fuzz_%: $(OBJ)/tests/fuzz_%.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
@@ -141,7 +148,13 @@ demo: $(TUILE) $(SPIDER) $(BUNNY_6000) ## two real models on the simulated panel
 	@echo "Pictures: $(BUILD)/demo/*.png; contact sheets: $(BUILD)/demo/spider.png and $(BUILD)/demo/bunny.png"
 
 # ---- tests ---------------------------------------------------------------------------------------------------------
-RUN_TESTS = for t in $(1); do echo "== $$t"; TUILE=$(TUILE) SPIDER=$(SPIDER) BUNNY_6000=$(BUNNY_6000) BUILD=$(BUILD) $$t || exit 1; done
+# Tests named test_mock_* see devices that umockdev makes up: its library stands between them and the kernel, behind ASan's.
+MOCK_RUN := umockdev-wrapper
+ifeq ($(VARIANT),asan)
+MOCK_RUN = env LD_PRELOAD=$(shell $(CC) -print-file-name=libasan.so):libumockdev-preload.so.0
+endif
+RUN_TESTS = for t in $(1); do echo "== $$t"; case $$t in */test_mock_*) under="$(MOCK_RUN)" ;; *) under= ;; esac; \
+  TUILE=$(TUILE) SPIDER=$(SPIDER) BUNNY_6000=$(BUNNY_6000) BUILD=$(BUILD) $$under $$t || exit 1; done
 
 check: $(TESTS) $(FUZZERS) $(TUILE) $(SPIDER) $(BUNNY_6000)
 	@$(call RUN_TESTS,$(FUZZERS))
