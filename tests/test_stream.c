@@ -219,11 +219,7 @@ static int fake_next(tuile_t *renderer, tuile_tile_t *tile) {
     if (renderer->next_error && renderer->next == renderer->fail_at) { return renderer->next_error; }
     if (renderer->next == 10) { return 0; }
     memset(to, 0, sizeof renderer->buffers[0]);
-    for (uint32_t row = 0; row < 32; row++) {
-        for (uint32_t x = 0; x < 240; x++) {
-            board_put_pixel(to + 2 * (row * 240 + x), TUILE_WIRE_RGB565, board_colour(240, x, y + row));
-        }
-    }
+    board_encode(to, TUILE_WIRE_RGB565, 240, 0, y, 240, 32);
     *tile = (tuile_tile_t){0, (uint16_t)y, 240, 32, to, sizeof renderer->buffers[0]};
     renderer->next++;
     return 1;

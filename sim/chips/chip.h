@@ -28,6 +28,7 @@ struct sim_chip {
 
     const char *name;
     bool tearing;        /* the tearing-effect line is switched on */
+    bool uncut;          /* the owner's: a round glass shows what lies beyond its circle too, instead of black */
     sim_error_t fault;   /* the first illegal traffic; empties only when the owner empties it. Until then nothing is taken */
     sim_error_t warning; /* the first that is legal in practice but not by the data sheet */
     uint32_t warnings;
