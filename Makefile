@@ -5,7 +5,7 @@ ifeq ($(origin CC),default)
 CC := gcc
 endif
 BUILD := build
-# release, asan, clang: each with its own objects
+# release, asan, clang, arm64: each with its own objects
 VARIANT := release
 OBJ := $(BUILD)/$(VARIANT)
 
@@ -40,7 +40,7 @@ objects = $(patsubst %.c,$(OBJ)/%.o,$(1))
 CORE_OBJ := $(call objects,$(CORE_SRC))
 SIM_OBJ := $(call objects,$(SIM_SRC) $(HOSTED_SRC))
 SIM_LIB_OBJ := $(filter-out $(OBJ)/sim/main.o,$(SIM_OBJ))
-TEST_LIB_OBJ := $(call objects,$(REFERENCE_SRC) $(SUPPORT_SRC))
+TEST_LIB_OBJ := $(call objects,$(REFERENCE_SRC) $(SUPPORT_SRC) tests/linux/pins.c)
 TESTS := $(patsubst tests/%.c,$(OBJ)/%,$(TEST_SRC))
 MOCK_TESTS := $(filter $(OBJ)/test_mock_%,$(TESTS))
 FUZZERS := $(patsubst tests/%.c,$(OBJ)/%,$(FUZZ_SRC))
@@ -66,11 +66,12 @@ endef
 
 .PHONY: golden help all demo test test-asan test-clang check bench bench-methods bench-instances docs-pictures gallery size size-arm format format-check lint clean
 help: ## this list
-	@grep -hE '^[a-z-]+:.*##' Makefile | sed 's/:.*##/\t/' | expand -t 16
+	@grep -hE '^[a-z-]+:.*##' Makefile tests/linux/linux.mk | sed 's/:.*##/\t/' | expand -t 16
 
 all: $(TUILE) ## build the simulator, build/tuile
 
-$(BUILD)/need/sim: ; $(call need,libassimp-dev libmeshoptimizer-dev libpng-dev libjpeg62-turbo-dev libgpiod-dev libusb-1.0-0-dev liblz4-dev,model import + simplification + pictures + displays)
+SIM_PACKAGES := libassimp-dev libmeshoptimizer-dev libpng-dev libjpeg62-turbo-dev libgpiod-dev libusb-1.0-0-dev liblz4-dev
+$(BUILD)/need/sim: ; $(call need,$(SIM_PACKAGES),model import + simplification + pictures + displays)
 $(BUILD)/need/test: ; $(call need,libcmocka-dev umockdev libumockdev-dev pkg-config,tests)
 $(BUILD)/need/mesa: ; $(call need,libosmesa6-dev,a second renderer to compare with)
 $(BUILD)/need/clang: ; $(call need,clang libclang-rt-14-dev,a second compiler)
@@ -120,7 +121,7 @@ $(OBJ)/fuzz_%: $(OBJ)/tests/fuzz_%.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@
 
 .SECONDARY:
--include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
+-include $(shell find $(BUILD) -path $(BUILD)/linux -prune -o -name '*.d' -print 2>/dev/null)
 
 # ---- models from Debian packages: downloaded and unpacked under build/, not installed ------------------------------
 MODELS := $(BUILD)/models
@@ -183,6 +184,8 @@ objects: $(CORE_OBJ)
 	@sh tests/objects.sh $(CORE_OBJ)
 	@sh tests/methods.sh $(OBJ)/methods.o $(CC) $(CFLAGS_CORE)
 	@sh tests/features.sh $(OBJ)/features $(CC) $(CFLAGS_CORE)
+
+include tests/linux/linux.mk
 
 # ---- figures -------------------------------------------------------------------------------------------------------
 SIZE ?= 320x240
