@@ -1,13 +1,12 @@
 /* tuile render: a model, drawn through tiles, streamed to a simulated panel, and what the panel shows written as pictures. */
 #include "../firmware/stream.h"
-#include "../hal/panels/ili9341.h"
-#include "bus.h"
-#include "chips/ili9341.h"
 #include "commands.h"
 #include "ids.h"
+#include "interrupt.h"
 #include "mesh/mesh.h"
 #include "options.h"
 #include "output.h"
+#include "render_display.h"
 #include "render_format.h"
 #include "render_layer.h"
 #include "render_light.h"
@@ -31,9 +30,6 @@ static const char usage[] =
     "\n"
     "MODEL is a .tuile file or anything Assimp reads (OBJ, glTF, PLY, STL, 3DS, Collada ...).\n"
     "\n"
-    "  --panel ili9341          the panel (240x320)\n"
-    "  --rotate 0|90|180|270    how the panel is held\n"
-    "  --clock HZ               clock of the bus for pixels, like 40M; 0 asks for the panel's usual one\n"
     "  --method M               hidden-surface method: zbuffer (default), scanline, warnock, painter, tree\n"
     "  --warnock V,V,...        how warnock divides: quarters alone, or any of single, box, sorted, pixels; by default "
     "single,box,pixels\n"
@@ -64,6 +60,7 @@ static const char usage[] =
 
 static void print_usage(FILE *file) {
     (void)fputs(usage, file);
+    (void)fputs(render_display_usage, file);
     (void)fputs(render_light_usage, file);
     (void)fputs(render_mesh_usage, file);
     (void)fputs(render_format_usage, file);
@@ -75,12 +72,13 @@ static void print_usage(FILE *file) {
 
 typedef struct render {
     const char *model_path, *out, *sheet, *ids, *report;
-    long frames, rotate, max_faces;
-    size_t memory_bytes, clock_hz;
+    long frames, max_faces;
+    size_t memory_bytes;
     bool hash, pick, has_show;
     show_view_t show;
     double pick_at[2];
     tuile_config_t config;
+    render_display_t where;
     render_format_t format;
     render_surface_t surface;
     render_light_t light;
@@ -93,9 +91,8 @@ typedef struct render {
     uint8_t *bytes;
     tuile_model_t model, sizes; /* sizes: of all models together */
     view_t view;
-    sim_chip_t *chip;
-    sim_bus_t bus;
-    tuile_display_t display;
+    target_t target;
+    bool on_display; /* else frames are decoded without one */
     void *block;
     tuile_t *renderer;
     sim_picture_t *pictures; /* of all frames, for the sheet */
@@ -109,7 +106,6 @@ typedef struct render {
 } render_t;
 
 static int parse(render_t *r, int count, char **arguments) {
-    static const char *const panels[] = {"ili9341", NULL}, *const rotations[] = {"0", "90", "180", "270", NULL};
     static const char *const shades[] = {"flat", "gouraud", NULL};
     view_options_t *v = &r->view_options;
     options_t options;
@@ -126,12 +122,6 @@ static int parse(render_t *r, int count, char **arguments) {
                 return command_fail("render: one model at a time, but got %s and %s", r->model_path, argument), EXIT_USAGE;
             }
             r->model_path = argument;
-        } else if (strcmp(argument, "--panel") == 0) {
-            (void)options_choice(&options, &choice, panels);
-        } else if (strcmp(argument, "--rotate") == 0) {
-            if (options_choice(&options, &choice, rotations)) { r->rotate = choice; }
-        } else if (strcmp(argument, "--clock") == 0) {
-            (void)render_value_clock(&options, &r->clock_hz);
         } else if (strcmp(argument, "--method") == 0) {
             if (options_choice(&options, &choice, options_methods)) { r->config.method = (uint8_t)choice; }
         } else if (strcmp(argument, "--warnock") == 0) {
@@ -202,7 +192,7 @@ static int parse(render_t *r, int count, char **arguments) {
         } else if (strcmp(argument, "--help") == 0) {
             print_usage(stdout);
             return -1;
-        } else if (!render_format_option(&r->format, &options, argument) &&
+        } else if (!render_display_option(&r->where, &options, argument) && !render_format_option(&r->format, &options, argument) &&
                    !render_mesh_option(&r->mesh_options, &options, argument) &&
                    !render_surface_option(&r->surface, &options, argument) && !render_world_option(&r->world, &options, argument) &&
                    !render_light_option(&r->light, &options, argument) && !render_overlay_option(&r->overlay, &options, argument) &&
@@ -240,8 +230,9 @@ static size_t one_pass_bytes(const tuile_model_t *model, const tuile_config_t *c
            32u * (size_t)model->face_count + 65536u;
 }
 
+/* align_y: where tiles may begin. */
 static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t *config, const tuile_model_t *model,
-                         size_t *memory_bytes) {
+                         unsigned align_y, size_t *memory_bytes) {
     size_t wanted = 0;
     tuile_config_t c = *config;
     c.cluster_vertices = model->cluster_vertices_max;
@@ -253,7 +244,13 @@ static int open_renderer(tuile_t **renderer, void **block, const tuile_config_t 
     }
     *block = malloc(*memory_bytes);
     if (!*block) { return command_fail("out of memory"); }
-    const int result = tuile_init(renderer, &c, *block, *memory_bytes, &wanted);
+    int result = tuile_init(renderer, &c, *block, *memory_bytes, &wanted);
+    const unsigned rest = result ? 0 : tuile_config(*renderer)->tile_height % align_y;
+    if (rest && tuile_config(*renderer)->tile_height < config->height) {
+        c.tile_height = (uint16_t)(tuile_config(*renderer)->tile_height - rest);
+        if (c.tile_height == 0) { c.tile_height = (uint16_t)align_y; }
+        result = tuile_init(renderer, &c, *block, *memory_bytes, &wanted);
+    }
     if (result == TUILE_ERROR_MEMORY) {
         return command_fail("--memory: %zu bytes are too few; this model wants at least %zu (smaller tiles want less, see --tile)",
                             *memory_bytes, wanted);
@@ -285,25 +282,28 @@ static int set_up(render_t *r) {
     }
     r->sizes = r->model;
     render_world_sizes(&r->world, &r->sizes);
-    r->chip = sim_ili9341_create(&r->error);
-    if (!r->chip) { return command_fail("%s", r->error.text); }
-    const sim_bus_config_t bus = {.clock_hz = (uint32_t)r->clock_hz};
-    sim_bus_open(&r->bus, &bus, r->chip);
-    const tuile_display_config_t display = {.bus = &r->bus.bus, .panel = &tuile_ili9341, .rotation = (uint8_t)r->rotate};
-    result = tuile_display_init(&r->display, &display);
-    if (result) {
-        return command_fail("panel: %s%s%s", tuile_hal_error_text(result), r->bus.error.text[0] ? ": " : "", r->bus.error.text);
+    r->on_display = r->where.named || !render_format_is_decoded(&r->format);
+    const uint8_t wire = r->on_display && r->format.named ? (uint8_t)(r->format.format + 1) : TUILE_WIRE_DEFAULT;
+    if (render_display_open(&r->where, &r->target, wire) != 0) { return EXIT_FAILURE; }
+    render_display_apply(&r->target, &r->config);
+    if (r->on_display && !target_is_simulated(&r->target)) {
+        if (r->out || r->sheet || r->hash) {
+            return command_fail("%s: a real display cannot be looked at; leave out --out, --sheet and --hash",
+                                r->target.config.text);
+        }
+        interrupt_catch();
     }
-
-    r->config.width = r->display.width;
-    r->config.height = r->display.height;
+    if (r->on_display && render_display_check_tile(&r->target, &r->config) != 0) { return EXIT_FAILURE; }
     if (render_layer_apply(&r->layer, &r->config) != 0) { return EXIT_FAILURE; }
     if (has_translucent(r)) { r->config.effects |= TUILE_LAYERS; }
-    if (render_format_apply(&r->format, r->rotate, &r->config) != 0) { return EXIT_FAILURE; }
+    if (render_format_apply(&r->format, r->on_display, r->where.rotation, &r->config) != 0) { return EXIT_FAILURE; }
     render_light_apply(&r->light, &r->config);
     if (render_overlay_apply(&r->overlay, &r->config) != 0) { return EXIT_FAILURE; }
     render_surface_apply(&r->surface, &r->sizes, &r->config);
-    if (open_renderer(&r->renderer, &r->block, &r->config, &r->sizes, &r->memory_bytes) != 0) { return EXIT_FAILURE; }
+    if (open_renderer(&r->renderer, &r->block, &r->config, &r->sizes, r->on_display ? r->target.display.align_y : 1,
+                      &r->memory_bytes) != 0) {
+        return EXIT_FAILURE;
+    }
     if (view_make(&r->view, &r->view_options, &r->model, r->config.width, r->config.height, (unsigned)r->frames, &r->error) != 0) {
         return command_fail("%s", r->error.text);
     }
@@ -346,7 +346,7 @@ static int write_ids(render_t *r, unsigned frame) {
     scene.line_count = scene.sprite_count = 0; /* which have no number */
     uint32_t *ids = calloc(pixels, sizeof *ids);
     if (!ids) { return command_fail("out of memory"); }
-    int code = open_renderer(&renderer, &block, &config, &r->sizes, &memory_bytes);
+    int code = open_renderer(&renderer, &block, &config, &r->sizes, 1, &memory_bytes);
     const int result = code ? 0 : ids_draw(renderer, &scene, ids);
     if (result < 0) { code = command_fail("--ids: %s", tuile_error_text(result)); }
     if (code == 0 && output_open(&out, name, &r->error) == 0) {
@@ -458,20 +458,19 @@ static int write_show(render_t *r, const char *name) {
     return 0;
 }
 
-/* The frame by way of the panel: what is seen, and its memory as it lies. */
-static int draw_panel(render_t *r, sim_picture_t *picture, sim_picture_t *glass) {
-    memset(&r->bus.counts, 0, sizeof r->bus.counts);
-    const int result = tuile_stream_frame(r->renderer, &r->view.scene, &r->display, &r->stats);
+/* The frame by way of the display: what is seen, and the panel's memory as it lies, where that is simulated. */
+static int draw_displayed(render_t *r, sim_picture_t *picture, sim_picture_t *glass) {
+    target_begin_frame(&r->target);
+    const int result = tuile_stream_frame(r->renderer, &r->view.scene, &r->target.display, &r->stats);
     if (result) { return result; }
-    r->wire_bytes = r->bus.counts.command_bytes + r->bus.counts.data_bytes;
-    r->frame_ns = r->bus.counts.wire_ns + r->bus.counts.gap_ns;
-    return sim_bus_picture(&r->bus, (unsigned)r->rotate, picture, &r->error) || r->chip->glass(r->chip, glass, &r->error);
+    target_frame_figures(&r->target, &r->wire_bytes, &r->frame_ns);
+    return target_is_simulated(&r->target) ? target_picture(&r->target, picture, glass, &r->error) != 0 : 0;
 }
 
 /* The frame in a format that the panel does not take. */
 static int draw_decoded(render_t *r, sim_picture_t *picture, sim_picture_t *glass) {
     const int result = render_format_draw(r->renderer, &r->view.scene, picture, &r->stats, &r->wire_bytes, &r->error);
-    return result ? result : sim_picture_turn(picture, (int)r->rotate, glass, &r->error) != 0;
+    return result ? result : sim_picture_turn(picture, r->where.rotation, glass, &r->error) != 0;
 }
 
 static int draw_frame(render_t *r, unsigned frame) {
@@ -482,14 +481,14 @@ static int draw_frame(render_t *r, unsigned frame) {
         render_layer_frame(&r->layer, &r->view.scene, r->view.unit, &r->error) != 0) {
         return command_fail("%s", r->error.text);
     }
-    const int result = (render_format_on_panel(&r->format) ? draw_panel : draw_decoded)(r, &picture, &glass);
+    const int result = (r->on_display ? draw_displayed : draw_decoded)(r, &picture, &glass);
     if (result > 0) { return command_fail("%s", r->error.text); }
     if (result) {
         if (result == TUILE_ERROR_MEMORY) {
             return command_fail("frame %u: --memory: %u bytes are too few for this method; %zu would do", frame,
                                 r->stats.size_bytes, tuile_wanted(r->renderer));
         }
-        const char *detail = r->bus.error.text[0] ? r->bus.error.text : r->error.text[0] ? r->error.text : r->chip->fault.text;
+        const char *detail = r->error.text[0] ? r->error.text : target_detail(&r->target);
         return command_fail("frame %u: %s%s%s", frame, tuile_stream_error_text(result), detail[0] ? ": " : "", detail);
     }
     render_overlay_frame(&r->overlay, r->frame_ns);
@@ -525,7 +524,7 @@ static int run(render_t *r) {
         (void)fprintf(r->report_file.file, "{\"frames\": [");
     }
     for (unsigned frame = 0; code == 0 && frame < (unsigned)r->frames; frame++) {
-        code = draw_frame(r, frame);
+        code = interrupt_seen() ? interrupt_code() : draw_frame(r, frame);
         if (code == 0 && r->frames > 1) { command_progress(frame + 1, (unsigned)r->frames); }
     }
     if (code == 0 && r->pick) { code = print_pick(r); }
@@ -549,7 +548,12 @@ static int run(render_t *r) {
     if (code) { return code; }
     if (r->out || r->sheet || r->report || !(r->hash || r->pick || r->ids)) {
         char bus[64] = "";
-        if (r->frame_ns) { (void)snprintf(bus, sizeof bus, "; the bus allows %.1f fps", 1e9 / (double)r->frame_ns); }
+
+        if (r->frame_ns) {
+            (void)snprintf(bus, sizeof bus, "; %s %.1f fps",
+                           r->on_display && !target_is_simulated(&r->target) ? "the last frame came at" : "the bus allows",
+                           1e9 / (double)r->frame_ns);
+        }
         (void)printf("%s: %u faces; memory given %u, least %u, used %u bytes, %u pass%s; %u tiles, %llu bytes on the wire%s\n",
                      r->model_path, r->stats.faces, r->stats.size_bytes, r->stats.least_bytes, r->peak_bytes, r->passes_max,
                      r->passes_max == 1 ? "" : "es", r->stats.tiles, (unsigned long long)r->wire_bytes, bus);
@@ -567,7 +571,7 @@ int command_render(int count, char **arguments) {
     } else if (code == 0) {
         code = run(&r);
         sim_pictures_free(r.pictures, (size_t)r.frames);
-        if (r.chip) { r.chip->destroy(r.chip); }
+        target_close(&r.target);
         free(r.block);
         free(r.bytes);
         render_world_free(&r.world);

@@ -5,6 +5,8 @@
 enum { EXIT_USAGE = 2 };
 
 int command_render(int count, char **arguments);
+int command_panels(int count, char **arguments);
+int command_card(int count, char **arguments);
 int command_mesh(int count, char **arguments);
 int command_font(int count, char **arguments);
 int command_faces(int count, char **arguments);

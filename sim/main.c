@@ -5,26 +5,26 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char usage[] = "Usage: tuile COMMAND ...\n"
-                            "\n"
-                            "  tuile render MODEL [options]       draw a model on a simulated panel, as pictures\n"
-                            "  tuile mesh IN -o OUT.c|OUT.tuile   compile a model for flash\n"
-                            "  tuile font FONT.bdf -o OUT.c        compile a bitmap font for flash\n"
-                            "  tuile faces SCENE                  the visible face of each pixel of a text scene\n"
-                            "  tuile coverage W H < FILE          the pixels of polygons given in 1/16 pixel\n"
-                            "\n"
-                            "  tuile COMMAND --help               the options of a command\n";
+static const char usage[] =
+    "Usage: tuile COMMAND ...\n"
+    "\n"
+    "  tuile render MODEL [options]       draw a model on a display, or on a simulated panel as pictures\n"
+    "  tuile panels                       the panels that there are\n"
+    "  tuile card [options]               a test card: which way is up, the order of the colours, the border\n"
+    "  tuile mesh IN -o OUT.c|OUT.tuile   compile a model for flash\n"
+    "  tuile font FONT.bdf -o OUT.c        compile a bitmap font for flash\n"
+    "  tuile faces SCENE                  the visible face of each pixel of a text scene\n"
+    "  tuile coverage W H < FILE          the pixels of polygons given in 1/16 pixel\n"
+    "\n"
+    "  tuile COMMAND --help               the options of a command\n";
 
 int main(int count, char **arguments) {
     static const struct {
         const char *name;
         int (*run)(int count, char **arguments);
     } commands[] = {
-        {"render", command_render},
-        {"mesh", command_mesh},
-        {"font", command_font},
-        {"faces", command_faces},
-        {"coverage", command_coverage},
+        {"render", command_render}, {"panels", command_panels}, {"card", command_card},         {"mesh", command_mesh},
+        {"font", command_font},     {"faces", command_faces},   {"coverage", command_coverage},
     };
     (void)signal(SIGPIPE, SIG_IGN); /* a closed pipe is reported as a write error */
     if (count < 2) {

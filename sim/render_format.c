@@ -19,7 +19,7 @@ static const uint8_t formats[] = {TUILE_RGB565_BE, TUILE_RGB565_LE, TUILE_RGB444
                                   TUILE_GREY8,     TUILE_GREY4,     TUILE_MONO_PAGES, TUILE_MONO_ROWS};
 static const char *const samples[] = {"none", "2x2", "4x4", NULL};
 
-static const char *name_of(uint8_t format) {
+const char *render_format_name(uint8_t format) {
     unsigned i = 0;
     while (names[i + 1] && formats[i] != format) {
         i++;
@@ -31,6 +31,7 @@ bool render_format_option(render_format_t *part, options_t *options, const char 
     int choice;
     if (strcmp(argument, "--format") == 0) {
         if (options_choice(options, &choice, names)) { part->format = formats[choice]; }
+        part->named = true;
     } else if (strcmp(argument, "--dither") == 0) {
         part->dither = true;
     } else if (strcmp(argument, "--aa") == 0) {
@@ -43,7 +44,7 @@ bool render_format_option(render_format_t *part, options_t *options, const char 
     return true;
 }
 
-bool render_format_on_panel(const render_format_t *part) { return part->format == TUILE_RGB565_BE; }
+bool render_format_is_decoded(const render_format_t *part) { return part->format != TUILE_RGB565_BE; }
 
 /* What a tile's size must be a multiple of, so that no byte belongs to two tiles. */
 static int check_tile(const tuile_config_t *c) {
@@ -51,26 +52,26 @@ static int check_tile(const tuile_config_t *c) {
     const unsigned rows = c->format == TUILE_MONO_PAGES ? 8 : 1;
     if (c->tile_width < c->width && c->tile_width % columns != 0) {
         return command_fail("--tile %ux%u: the width of a tile of %s is a multiple of %u, or the window's", c->tile_width,
-                            c->tile_height, name_of(c->format), columns);
+                            c->tile_height, render_format_name(c->format), columns);
     }
     if (c->tile_height < c->height && c->tile_height % rows != 0) {
         return command_fail("--tile %ux%u: the height of a tile of %s is a multiple of %u, or the window's", c->tile_width,
-                            c->tile_height, name_of(c->format), rows);
+                            c->tile_height, render_format_name(c->format), rows);
     }
     return 0;
 }
 
-int render_format_apply(const render_format_t *part, long quarter_turns, tuile_config_t *config) {
-    if (part->width && render_format_on_panel(part)) {
-        return command_fail("--size: %s goes to the simulated panel, which has a size of its own; name another --format",
-                            name_of(part->format));
+int render_format_apply(const render_format_t *part, bool on_display, long quarter_turns, tuile_config_t *config) {
+    if (part->width && on_display) {
+        return command_fail("--size: %s goes to a display, which has a size of its own; name another --format and no display",
+                            render_format_name(config->format));
     }
     if (part->width) {
         const bool turned = quarter_turns % 2 != 0;
         config->width = turned ? part->height : part->width;
         config->height = turned ? part->width : part->height;
     }
-    config->format = part->format;
+    if (!on_display) { config->format = part->format; }
     config->dither = part->dither;
     config->aa = part->aa;
     if (config->width << part->aa > TUILE_SAMPLES_MAX || config->height << part->aa > TUILE_SAMPLES_MAX) {
@@ -100,6 +101,6 @@ int render_format_draw(tuile_t *renderer, const tuile_scene_t *scene, sim_pictur
 }
 
 void render_format_text(const tuile_config_t *config, char *text, size_t size) {
-    (void)snprintf(text, size, "%s%s%s%s%s", name_of(config->format), config->dither ? ", dithered" : "", config->aa ? ", " : "",
-                   config->aa ? samples[config->aa] : "", config->aa ? " samples" : "");
+    (void)snprintf(text, size, "%s%s%s%s%s", render_format_name(config->format), config->dither ? ", dithered" : "",
+                   config->aa ? ", " : "", config->aa ? samples[config->aa] : "", config->aa ? " samples" : "");
 }

@@ -9,6 +9,7 @@
 
 /* Zero = default. */
 typedef struct render_format {
+    bool named;     /* --format was given */
     uint8_t format; /* tuile_format_t */
     uint8_t aa;     /* tuile_aa_t */
     bool dither;
@@ -20,12 +21,15 @@ extern const char render_format_usage[];
 /* An option of this part: takes its value. False when it is another's. */
 bool render_format_option(render_format_t *part, options_t *options, const char *argument);
 
-/* Completes a configuration that has the window of the panel, held at so many quarter turns, and the tiles asked for. 0, or an exit
- * code and a message when they do not go together. */
-int render_format_apply(const render_format_t *part, long quarter_turns, tuile_config_t *config);
+/* Completes a configuration that has the window and the format of the display, held at so many quarter turns, and the tiles asked
+ * for; on_display: what is drawn goes to it. 0, or an exit code and a message when they do not go together. */
+int render_format_apply(const render_format_t *part, bool on_display, long quarter_turns, tuile_config_t *config);
 
-/* Does the panel take the format? Else frames are decoded by sim/wire.h. */
-bool render_format_on_panel(const render_format_t *part);
+/* A format that no display was named for and that the default one does not take is decoded by sim/wire.h. */
+bool render_format_is_decoded(const render_format_t *part);
+
+/* "rgb565be", of a tuile_format_t. */
+const char *render_format_name(uint8_t format);
 
 /* Draws a frame and decodes it; wire_bytes receives the size of its tiles. 0, or a tuile_error_t; TUILE_ERROR_MEMORY also when
  * there is none for the picture, TUILE_ERROR_ARGUMENT with a line in error when a tile is not what its format says. */

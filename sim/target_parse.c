@@ -1,0 +1,164 @@
+#include "target.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char target_usage[] =
+    "  sim:PANEL[,clock=HZ][,mcu=NAME][,chunk=BYTES]\n"
+    "                           a simulated panel; mcu: the clocks that rp2040, stm32f4, esp32 or atmega328p can make\n"
+    "  of a panel too:          bgr=0|1, invert=0|1, offset=X:Y where a module differs from its data; identify=1,\n"
+    "                           command-clock=HZ, brightness=1...255\n";
+
+/* One "key=value" of the text. */
+typedef struct part {
+    const char *key, *value;
+} part_t;
+
+static int refuse(const target_config_t *config, const part_t *part, const char *wants, sim_error_t *error) {
+    return sim_fail(error, "%s: %s=%s: wants %s", config->text, part->key, part->value, wants);
+}
+
+static bool read_number(const char *text, unsigned long least, unsigned long most, uint32_t *value) {
+    char *end;
+    errno = 0;
+    const unsigned long number = strtoul(text, &end, 10);
+    if (end == text || *end || errno || text[0] == '-' || number < least || number > most) { return false; }
+    *value = (uint32_t)number;
+    return true;
+}
+
+static bool read_clock(const char *text, uint32_t *hz) {
+    char *end;
+    double value = strtod(text, &end);
+    if (end != text && *end == 'M') { value *= 1e6, end++; }
+    if (end != text && (*end == 'k' || *end == 'K')) { value *= 1e3, end++; }
+    if (end == text || *end || !(value >= 1 && value <= 1e9)) { return false; }
+    *hz = (uint32_t)value;
+    return true;
+}
+
+static bool read_flag(const char *text, bool *flag) {
+    uint32_t value;
+    if (!read_number(text, 0, 1, &value)) { return false; }
+    *flag = value != 0;
+    return true;
+}
+
+#define WANTS_CLOCK "Hz, like 40M, up to 1000M"
+#define WANTS_FLAG "0 or 1"
+
+/* What any panel on a bus takes. 1: it was one of them; 0: it is another's; -1. */
+static int panel_part(target_config_t *config, const part_t *part, sim_error_t *error) {
+    tuile_panel_t *panel = &config->panel;
+    uint32_t number;
+    bool flag;
+    if (strcmp(part->key, "clock") == 0) {
+        return read_clock(part->value, &config->clock_hz) ? 1 : refuse(config, part, WANTS_CLOCK, error);
+    }
+    if (strcmp(part->key, "command-clock") == 0) {
+        return read_clock(part->value, &config->command_clock_hz) ? 1 : refuse(config, part, WANTS_CLOCK, error);
+    }
+    if (strcmp(part->key, "brightness") == 0) {
+        if (!read_number(part->value, 1, 255, &number)) { return refuse(config, part, "1 to 255", error); }
+        config->brightness = (uint8_t)number;
+        return 1;
+    }
+    if (strcmp(part->key, "identify") == 0) {
+        return read_flag(part->value, &config->identify) ? 1 : refuse(config, part, WANTS_FLAG, error);
+    }
+    if (strcmp(part->key, "bgr") == 0) {
+        if (!read_flag(part->value, &flag)) { return refuse(config, part, WANTS_FLAG, error); }
+        if (!panel->order_bit) {
+            return sim_fail(error, "%s: bgr: %s has no order of colours to choose", config->text, panel->name);
+        }
+        panel->rotation_base = (uint8_t)(flag ? panel->rotation_base | panel->order_bit : panel->rotation_base & ~panel->order_bit);
+        return 1;
+    }
+    if (strcmp(part->key, "invert") == 0) {
+        if (!read_flag(part->value, &flag)) { return refuse(config, part, WANTS_FLAG, error); }
+        if (!panel->invert_command[flag]) { return sim_fail(error, "%s: invert: %s does not invert", config->text, panel->name); }
+        panel->inverted = flag;
+        return 1;
+    }
+    if (strcmp(part->key, "offset") == 0) {
+        unsigned x, y;
+        char rest;
+        if (sscanf(part->value, "%4u:%4u%c", &x, &y, &rest) != 2 || x + panel->view_width > panel->ram_width ||
+            y + panel->view_height > panel->ram_height) {
+            char wants[80];
+            (void)snprintf(wants, sizeof wants, "X:Y, at most %u:%u, since the chip has memory for %ux%u",
+                           panel->ram_width - panel->view_width, panel->ram_height - panel->view_height, panel->ram_width,
+                           panel->ram_height);
+            return refuse(config, part, wants, error);
+        }
+        panel->offset_x = (uint16_t)x;
+        panel->offset_y = (uint16_t)y;
+        return 1;
+    }
+    return 0;
+}
+
+static int sim_part(target_config_t *config, const part_t *part, sim_error_t *error) {
+    if (strcmp(part->key, "mcu") == 0) {
+        config->mcu = sim_mcu_find(part->value);
+        return config->mcu ? 1 : refuse(config, part, "rp2040, stm32f4, esp32 or atmega328p", error);
+    }
+    if (strcmp(part->key, "chunk") == 0) {
+        return read_number(part->value, TUILE_CHUNK_LEAST_BYTES, UINT32_MAX, &config->max_chunk_bytes)
+                   ? 1
+                   : refuse(config, part, "bytes, at least 6", error);
+    }
+    return panel_part(config, part, error);
+}
+
+static int name_panel(target_config_t *config, const char *name, sim_error_t *error) {
+    config->module = sim_panel_find(name);
+    if (!config->module) { return sim_fail(error, "%s: unknown panel '%s'; `tuile panels` lists them", config->text, name); }
+    config->panel = *config->module->panel;
+    return 0;
+}
+
+typedef int (*part_fn)(target_config_t *config, const part_t *part, sim_error_t *error);
+
+/* The parts behind the first, which stands for itself. `at` is cut up. */
+static int read_parts(target_config_t *config, char *at, part_fn take, sim_error_t *error) {
+    while (at) {
+        char *next = strchr(at, ','), *value;
+        if (next) { *next++ = '\0'; }
+        value = strchr(at, '=');
+        if (!value) { return sim_fail(error, "%s: '%s' wants a value, like %s=...", config->text, at, *at ? at : "clock"); }
+        *value++ = '\0';
+        const part_t part = {at, value};
+        const int taken = take(config, &part, error);
+        if (taken < 0) { return -1; }
+        if (!taken) { return sim_fail(error, "%s: unknown part '%s'", config->text, at); }
+        at = next;
+    }
+    return 0;
+}
+
+int target_parse_panel(target_config_t *config, const char *name, sim_error_t *error) {
+    *config = (target_config_t){.kind = TARGET_SIM};
+    (void)snprintf(config->text, sizeof config->text, "--panel");
+    return name_panel(config, name, error);
+}
+
+int target_parse(target_config_t *config, const char *text, sim_error_t *error) {
+    char copy[sizeof config->text];
+    char *rest;
+    *config = (target_config_t){.kind = TARGET_SIM};
+    if (snprintf(copy, sizeof copy, "%s", text) >= (int)sizeof copy) {
+        return sim_fail(error, "--display %.40s...: longer than %zu characters", text, sizeof copy - 1);
+    }
+    (void)snprintf(config->text, sizeof config->text, "--display %.*s", (int)(sizeof config->text - 16), text);
+    rest = strchr(copy, ':');
+    if (rest) {
+        char *parts = strchr(rest, ',');
+        *rest++ = '\0';
+        if (parts) { *parts++ = '\0'; }
+        if (strcmp(copy, "sim") == 0) { return name_panel(config, rest, error) ? -1 : read_parts(config, parts, sim_part, error); }
+    }
+    return sim_fail(error, "%s: unknown kind of display; wants sim:PANEL", config->text);
+}
