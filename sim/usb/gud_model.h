@@ -51,12 +51,12 @@ typedef struct sim_gud_config {
     uint16_t edid_bytes;                    /* a multiple of 128, at most 2048 */
     bool modes_from_edid;                   /* GET_MODES is answered by nothing */
 
-    uint16_t vendor, product;      /* 0: 1D50:614D */
-    uint8_t interface, endpoint;   /* numbers; endpoint 0: 1 */
-    uint16_t packet_bytes;         /* largest packet of the bulk endpoint; 0: 512 */
-    const char *serial;            /* outlives the model; NULL: none */
-    uint8_t display_descriptor[4]; /* for tests: if not all 0, the magic number that is told, little-endian */
-    uint8_t version;               /* of the protocol; 0: 1 */
+    uint16_t vendor, product;    /* 0: 1D50:614D */
+    uint8_t interface, endpoint; /* numbers; endpoint 0: 1 */
+    uint16_t packet_bytes;       /* largest packet of the bulk endpoint; 0: 512 */
+    const char *serial;          /* outlives the model; NULL: none */
+    uint32_t magic;              /* for tests: the magic number that is told; 0: the right one */
+    uint8_t version;             /* of the protocol; 0: 1 */
 } sim_gud_config_t;
 
 /* Readable: what arrived since the model was made, or since the caller zeroed it. */
@@ -79,16 +79,13 @@ sim_gud_counts_t *sim_gud_counts(sim_usb_t *usb);
 typedef struct sim_gud_state {
     uint16_t width, height;
     uint8_t format, connector;
-    uint8_t rotation;  /* quarter turns */
+    uint8_t rotation;  /* quarter turns against the clock, as the protocol counts */
     uint8_t backlight; /* per cent */
     bool controller, display;
 } sim_gud_state_t;
 sim_gud_state_t sim_gud_state(const sim_usb_t *usb);
 
-/* From now on the connector says this, and that it changed. */
-void sim_gud_connect(sim_usb_t *usb, unsigned connector, uint8_t status);
-
-/* For faults: the status that the next sets end with, each stalled; 0 ends it. */
+/* For faults: the status that all sets end with from now on; 0 ends it. */
 void sim_gud_break(sim_usb_t *usb, uint8_t status);
 
 #endif

@@ -20,7 +20,8 @@ struct sim_usb {
     /* A class or vendor request; standard ones never get here. setup is as on the wire. data are length = wLength bytes: what the
      * host sends, or room for the answer, which may be shorter. */
     int (*control)(sim_usb_t *usb, const uint8_t setup[8], uint8_t *data, size_t length);
-    /* A bulk transfer, whole as the host submitted it; endpoint with bit 7 set: to the host. */
+    /* A bulk transfer, or a part of one that ends with a whole packet: hosts cut long ones. endpoint with bit 7 set: to the host.
+     */
     int (*bulk)(sim_usb_t *usb, uint8_t endpoint, uint8_t *data, size_t length);
     /* The host has reset the port or chosen the configuration: everything but the picture is as after power came up. */
     void (*reset)(sim_usb_t *usb);
