@@ -8,7 +8,7 @@
 
 /* Formats (1 << tuile_format_t, or-ed) that a build has. */
 #ifndef TUILE_FORMATS
-#define TUILE_FORMATS 0x3ff
+#define TUILE_FORMATS 0xffff
 #endif
 
 #define FEATURE_SURFACES 1 /* deferred shading, which the next four build on */

@@ -3,10 +3,16 @@
 pixel_kind_t pixel_kind_of(uint8_t format, bool dither) {
     switch (format) {
     case TUILE_FACE_IDS: return PIXEL_IDS;
-    case TUILE_RGB666: return PIXEL_RGB888;
+    case TUILE_RGB666:
+    case TUILE_RGB111:
+    case TUILE_XRGB1111:
+    case TUILE_BGR888:
+    case TUILE_XRGB8888: return PIXEL_RGB888;
     case TUILE_GREY8:
     case TUILE_GREY4:
+    case TUILE_GREY4_TURNED:
     case TUILE_MONO_PAGES:
+    case TUILE_MONO_PAGES_TURNED:
     case TUILE_MONO_ROWS: return PIXEL_LUMA16;
     default: break;
     }

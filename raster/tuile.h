@@ -286,8 +286,17 @@ typedef enum tuile_format {
     TUILE_MONO_PAGES = 8, /* 1 bit: a byte is 8 pixels below one another, bit 0 on top, bytes run along the row; tiles are a
                              multiple of 8 high */
     TUILE_MONO_ROWS = 9,  /* 1 bit: a byte is 8 pixels beside one another, bit 7 left; tiles are a multiple of 8 wide */
+    TUILE_MONO_PAGES_TURNED = 10, /* MONO_PAGES with x and y exchanged, for panels that cannot exchange them: pixel (x, y) of a tile is
+                                     bit x % 8 of byte x / 8 * height + y; tiles are a multiple of 8 wide */
+    TUILE_GREY4_TURNED = 11, /* GREY4 with x and y exchanged: pixel (x, y) of a tile is in byte x * ((height + 1) / 2) + y / 2, in
+                                the high half where y is even; tiles are an even number of pixels high */
+    TUILE_RGB111 = 12,   /* 1 bit a colour: two pixels a byte, 00RGBRGB, the left one in the upper three bits; tiles are an even
+                            number of pixels wide */
+    TUILE_XRGB1111 = 13, /* 4 bits, 0RGB, the left one of two pixels in the high half; tiles are an even number of pixels wide */
+    TUILE_BGR888 = 14,   /* 3 bytes: blue, green, red */
+    TUILE_XRGB8888 = 15, /* 4 bytes: blue, green, red, 0 */
 } tuile_format_t;
-#define TUILE_FORMAT_COUNT 10
+#define TUILE_FORMAT_COUNT 16
 
 /* What beside white directional light, flat or Gouraud, on opaque faces a renderer is laid out for: or-ed. Without SURFACES textures,
  * vertex colours, emission and highlights of models are left out and faces have the colours of their materials. Without LAYERS
@@ -407,17 +416,21 @@ typedef struct tuile_config {
 /* Constant expressions for the size of the block, in bytes. */
 /* Tile bytes as they go out. */
 #define TUILE_WIRE_BYTES(format, w, h)                                                                       \
-    ((format) == TUILE_FACE_IDS                                  ? (size_t)4 * (w) * (h)                      \
-     : (format) == TUILE_RGB666                                  ? (size_t)3 * (w) * (h)                      \
+    ((format) <= TUILE_RGB565_LE                                 ? (size_t)2 * (w) * (h)                      \
+     : (format) == TUILE_FACE_IDS || (format) == TUILE_XRGB8888  ? (size_t)4 * (w) * (h)                      \
+     : (format) == TUILE_RGB666 || (format) == TUILE_BGR888      ? (size_t)3 * (w) * (h)                      \
      : (format) == TUILE_RGB444                                  ? ((size_t)3 * (w) * (h) + 1u) / 2u          \
      : (format) == TUILE_RGB332 || (format) == TUILE_GREY8       ? (size_t)(w) * (h)                          \
-     : (format) == TUILE_GREY4                                   ? (((size_t)(w) + 1u) / 2u) * (h)            \
+     : (format) == TUILE_RGB111                                  ? ((size_t)(w) * (h) + 1u) / 2u              \
+     : (format) == TUILE_GREY4 || (format) == TUILE_XRGB1111     ? (((size_t)(w) + 1u) / 2u) * (h)            \
+     : (format) == TUILE_GREY4_TURNED                            ? (((size_t)(h) + 1u) / 2u) * (w)            \
      : (format) == TUILE_MONO_PAGES                              ? (size_t)(w) * (((h) + 7u) / 8u)            \
-     : (format) == TUILE_MONO_ROWS                               ? (((size_t)(w) + 7u) / 8u) * (h)            \
-                                                                 : (size_t)2 * (w) * (h))
+                                                                 : (((size_t)(w) + 7u) / 8u) * (h))
 /* Bytes of a sample while a tile is drawn: 16 bits of colour in the wire's own steps or of luminance; 4 where colours are kept whole. */
-#define TUILE_SAMPLE_BYTES(format, dither) \
-    ((format) == TUILE_FACE_IDS || (format) == TUILE_RGB666 || ((dither) && ((format) <= TUILE_RGB332)) ? 4u : 2u)
+#define TUILE_SAMPLE_BYTES(format, dither)                                                                                          \
+    ((format) == TUILE_FACE_IDS || (format) == TUILE_RGB666 || (format) >= TUILE_RGB111 || ((dither) && ((format) <= TUILE_RGB332)) \
+         ? 4u                                                                                                                       \
+         : 2u)
 /* Does a tile become wire bytes in a step of its own? Else it is drawn in them. */
 #define TUILE_RESOLVES(format, samples, dither) \
     ((format) != TUILE_FACE_IDS && ((format) > TUILE_FACE_IDS || (samples) > 1 || (dither)))
@@ -497,8 +510,9 @@ int tuile_begin(tuile_t *renderer, const tuile_scene_t *scene);
 
 typedef struct tuile_tile {
     uint16_t x, y, width, height; /* rectangle in the window, cut to it */
-    const uint8_t *bytes;         /* width * height pixels, row by row without gaps, in wire order. GREY4 and MONO_ROWS: rows begin on
-                                     whole bytes, MONO_PAGES: pages of 8 rows follow one another; bits beyond the tile are 0 */
+    const uint8_t *bytes;         /* width * height pixels, row by row without gaps, in wire order. GREY4, XRGB1111 and MONO_ROWS: rows
+                                     begin on whole bytes, MONO_PAGES: pages of 8 rows follow one another, turned formats: the same with
+                                     columns for rows; bits beyond the tile are 0 */
     uint32_t size_bytes;
 } tuile_tile_t;
 

@@ -77,6 +77,7 @@ without surfaces TUILE_FEATURES=0x1e0 "raster/frame/shade.c $(echo raster/surfac
 without resolve TUILE_FEATURES=0x0bf "$(echo raster/resolve/*.c)" ".format = TUILE_GREY8"
 without samples TUILE_FEATURES=0x0ff "raster/resolve/mean.c" ".aa = TUILE_AA_2X2"
 without formats TUILE_FORMATS=0x001 "" ".format = TUILE_RGB332"
+without "colours of one bit and of eight" TUILE_FORMATS=0x0fff "" ".format = TUILE_RGB111"
 without_in_scene "key frames" TUILE_FEATURES=0x17f "$(echo raster/frame/morph.c raster/geometry/morph.c raster/scene/*.c)" ".morph = 1"
 without_in_frame lights TUILE_FEATURES=0x1fb "raster/frame/lights.c raster/geometry/lamp.c raster/surface/light.c" ".lights = &point, .light_count = 1"
 without_in_frame fog TUILE_FEATURES=0x1f7 "raster/surface/fog.c raster/surface/fog_stage.c" ".fog = {TUILE_FOG_LINEAR, {0}, 0, 65536}"

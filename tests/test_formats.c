@@ -10,7 +10,22 @@
 #define WIDTH 61u
 #define HEIGHT 43u
 
-static bool is_mono(unsigned format) { return format == TUILE_MONO_PAGES || format == TUILE_MONO_ROWS; }
+/* Columns and rows that a tile's sides must be multiples of, unless it reaches the end of the window; 0 means 1. */
+static const uint8_t units[TUILE_FORMAT_COUNT][2] = {
+    [TUILE_RGB444] = {2, 0},
+    [TUILE_GREY4] = {2, 0},
+    [TUILE_MONO_PAGES] = {0, 8},
+    [TUILE_MONO_ROWS] = {8, 0},
+    [TUILE_MONO_PAGES_TURNED] = {8, 0},
+    [TUILE_GREY4_TURNED] = {0, 2},
+    [TUILE_RGB111] = {2, 0},
+    [TUILE_XRGB1111] = {2, 0},
+};
+
+static bool fits(unsigned format, unsigned tile_width, unsigned tile_height) {
+    const unsigned columns = units[format][0] ? units[format][0] : 1, rows = units[format][1] ? units[format][1] : 1;
+    return (tile_width % columns == 0 || tile_width == WIDTH) && (tile_height % rows == 0 || tile_height == HEIGHT);
+}
 
 /* ---- nothing crawls ---- */
 
@@ -23,12 +38,11 @@ static void compare(const tuile_scene_t *scene, const tuile_config_t *config, si
     free(picture);
 }
 
-/* Tiles that suit all formats, then tiles that do not suit those whose pixels share bytes. */
+/* Tiles that suit all formats, then tiles that do not suit some of those whose pixels share bytes. */
 static void compare_all(const tuile_scene_t *scene, tuile_config_t config, const uint8_t *expected) {
-    static const uint16_t tiles[][2] = {{0, 0}, {16, 8}, {24, 24}, {61, 16}, {14, 5}, {7, 43}};
-    const bool shared = config.format == TUILE_RGB444 || config.format == TUILE_GREY4;
+    static const uint16_t tiles[][2] = {{0, 0}, {16, 8}, {24, 24}, {61, 16}, {14, 5}, {7, 43}, {8, 5}, {7, 6}};
     for (unsigned i = 0; i < CHECK_COUNT(tiles); i++) {
-        if ((i > 3 && is_mono(config.format)) || (i > 4 && shared)) { continue; }
+        if (!fits(config.format, tiles[i][0], tiles[i][1])) { continue; }
         for (unsigned method = 0; method < TUILE_TREE; method++) {
             config.method = (uint8_t)method;
             config.tile_width = tiles[i][0];
@@ -93,12 +107,32 @@ static void tiles_that_would_share_bytes_are_refused(void **state) {
         uint16_t width, height;
         int result;
     } tiles[] = {
-        {TUILE_RGB444, 15, 4, TUILE_ERROR_ARGUMENT},    {TUILE_RGB444, 16, 3, TUILE_ERROR_MEMORY},
-        {TUILE_RGB444, 61, 4, TUILE_ERROR_MEMORY},      {TUILE_GREY4, 15, 4, TUILE_ERROR_ARGUMENT},
-        {TUILE_GREY4, 61, 1, TUILE_ERROR_MEMORY},       {TUILE_MONO_ROWS, 12, 4, TUILE_ERROR_ARGUMENT},
-        {TUILE_MONO_ROWS, 16, 3, TUILE_ERROR_MEMORY},   {TUILE_MONO_PAGES, 16, 12, TUILE_ERROR_ARGUMENT},
-        {TUILE_MONO_PAGES, 15, 16, TUILE_ERROR_MEMORY}, {TUILE_MONO_PAGES, 15, 43, TUILE_ERROR_MEMORY},
-        {TUILE_RGB666, 15, 3, TUILE_ERROR_MEMORY},      {TUILE_RGB332, 15, 3, TUILE_ERROR_MEMORY},
+        {TUILE_RGB444, 15, 4, TUILE_ERROR_ARGUMENT},
+        {TUILE_RGB444, 16, 3, TUILE_ERROR_MEMORY},
+        {TUILE_RGB444, 61, 4, TUILE_ERROR_MEMORY},
+        {TUILE_GREY4, 15, 4, TUILE_ERROR_ARGUMENT},
+        {TUILE_GREY4, 61, 1, TUILE_ERROR_MEMORY},
+        {TUILE_MONO_ROWS, 12, 4, TUILE_ERROR_ARGUMENT},
+        {TUILE_MONO_ROWS, 16, 3, TUILE_ERROR_MEMORY},
+        {TUILE_MONO_PAGES, 16, 12, TUILE_ERROR_ARGUMENT},
+        {TUILE_MONO_PAGES, 15, 16, TUILE_ERROR_MEMORY},
+        {TUILE_MONO_PAGES, 15, 43, TUILE_ERROR_MEMORY},
+        {TUILE_RGB666, 15, 3, TUILE_ERROR_MEMORY},
+        {TUILE_RGB332, 15, 3, TUILE_ERROR_MEMORY},
+        {TUILE_MONO_PAGES_TURNED, 12, 16, TUILE_ERROR_ARGUMENT},
+        {TUILE_MONO_PAGES_TURNED, 16, 3, TUILE_ERROR_MEMORY},
+        {TUILE_MONO_PAGES_TURNED, 61, 3, TUILE_ERROR_MEMORY},
+        {TUILE_GREY4_TURNED, 16, 3, TUILE_ERROR_ARGUMENT},
+        {TUILE_GREY4_TURNED, 15, 4, TUILE_ERROR_MEMORY},
+        {TUILE_GREY4_TURNED, 15, 43, TUILE_ERROR_MEMORY},
+        {TUILE_RGB111, 15, 4, TUILE_ERROR_ARGUMENT},
+        {TUILE_RGB111, 16, 3, TUILE_ERROR_MEMORY},
+        {TUILE_RGB111, 61, 3, TUILE_ERROR_MEMORY},
+        {TUILE_XRGB1111, 15, 4, TUILE_ERROR_ARGUMENT},
+        {TUILE_XRGB1111, 16, 3, TUILE_ERROR_MEMORY},
+        {TUILE_XRGB1111, 61, 3, TUILE_ERROR_MEMORY},
+        {TUILE_BGR888, 15, 3, TUILE_ERROR_MEMORY},
+        {TUILE_XRGB8888, 15, 3, TUILE_ERROR_MEMORY},
     };
     tuile_t *renderer;
     (void)state;
@@ -111,6 +145,93 @@ static void tiles_that_would_share_bytes_are_refused(void **state) {
         const int result = tuile_init(&renderer, &config, NULL, 0, NULL);
         if (result != tiles[i].result) { fail_msg("%u: %d", i, result); }
     }
+}
+
+/* Whatever the size of the block. */
+static void the_default_height_suits_every_format(void **state) {
+    static uint64_t block[10000];
+    (void)state;
+    for (unsigned format = 0; format < TUILE_FORMAT_COUNT; format++) {
+        unsigned heights = 0, before = 0;
+        for (size_t size_bytes = 0; size_bytes <= sizeof block; size_bytes += 400) {
+            const tuile_config_t config = {.width = WIDTH, .height = HEIGHT, .format = (uint8_t)format, .cluster_vertices = 8};
+            tuile_t *renderer;
+            const int result = tuile_init(&renderer, &config, block, size_bytes, NULL);
+            if (result == TUILE_ERROR_MEMORY) { continue; }
+            assert_int_equal(result, 0);
+            const unsigned height = tuile_config(renderer)->tile_height;
+            assert_true(fits(format, WIDTH, height));
+            heights += height != before;
+            before = height;
+        }
+        assert_true(heights > 1);
+    }
+}
+
+/* ---- formats that hold the same pixels ---- */
+
+static void expect_same_picture(const tuile_scene_t *scene, tuile_config_t config, uint8_t format, uint8_t other) {
+    config.format = format;
+    uint8_t *picture = frame_draw(scene, &config, (size_t)1 << 20, NULL);
+    config.format = other;
+    uint8_t *same = frame_draw(scene, &config, (size_t)1 << 20, NULL);
+    if (memcmp(picture, same, frame_bytes(&config)) != 0) { fail_msg("format %u is not %u", other, format); }
+    free(picture);
+    free(same);
+}
+
+static void turned_pictures_are_the_same_pixels(void **state) {
+    stage_t stage;
+    mesh_t mesh;
+    (void)state;
+    model_torus(&mesh, 32, 14, false);
+    stage_open(&stage, &mesh, WIDTH, HEIGHT);
+    for (unsigned i = 0; i < 6; i++) {
+        const tuile_config_t config = {.width = WIDTH,
+                                       .height = HEIGHT,
+                                       .tile_width = 16,
+                                       .tile_height = 8,
+                                       .shade = TUILE_GOURAUD,
+                                       .dither = i % 2,
+                                       .aa = (uint8_t)(i / 2)};
+        expect_same_picture(&stage.view.scene, config, TUILE_MONO_PAGES, TUILE_MONO_PAGES_TURNED);
+        expect_same_picture(&stage.view.scene, config, TUILE_GREY4, TUILE_GREY4_TURNED);
+        expect_same_picture(&stage.view.scene, config, TUILE_RGB111, TUILE_XRGB1111);
+    }
+    stage_close(&stage);
+}
+
+/* Without dithering and with one sample a pixel all formats whose colours are kept whole are roundings of the same samples. */
+static void whole_colours_are_rounded_to_each_format(void **state) {
+    stage_t stage;
+    mesh_t mesh;
+    tuile_config_t config = {.width = WIDTH, .height = HEIGHT, .shade = TUILE_GOURAUD};
+    uint8_t *pictures[4];
+    static const uint8_t formats[] = {TUILE_BGR888, TUILE_XRGB8888, TUILE_RGB666, TUILE_RGB111};
+    (void)state;
+    model_torus(&mesh, 32, 14, false);
+    stage_open(&stage, &mesh, WIDTH, HEIGHT);
+    for (unsigned i = 0; i < 4; i++) {
+        config.format = formats[i];
+        pictures[i] = frame_draw(&stage.view.scene, &config, (size_t)1 << 20, NULL);
+    }
+    unsigned seen[256] = {0}, different = 0;
+    for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
+        const uint8_t *bgr = pictures[0] + 3 * i;
+        assert_memory_equal(pictures[1] + 4 * i, bgr, 3);
+        assert_int_equal(pictures[1][4 * i + 3], 0);
+        for (unsigned c = 0; c < 3; c++) { /* red, green, blue */
+            const unsigned value = bgr[2 - c];
+            assert_int_equal(pictures[2][3 * i + c], (2 * value * 63 + 255) / 510 << 2);
+            assert_int_equal(pictures[3][i] >> (2 - c) & 1, value >= 128);
+            different += seen[value]++ == 0;
+        }
+    }
+    assert_true(different > 50);
+    for (unsigned i = 0; i < 4; i++) {
+        free(pictures[i]);
+    }
+    stage_close(&stage);
 }
 
 /* ---- memory ---- */
@@ -139,7 +260,7 @@ static void the_macro_is_the_least_block_of_every_configuration(void **state) {
                                            (size_t)config.buffers, (size_t)40, config.effects, config.aa, config.dither));
         compared++;
     }
-    assert_int_equal(compared, (9 * 24 + 1) * 2 * CHECK_COUNT(tiles));
+    assert_int_equal(compared, (15 * 24 + 1) * 2 * CHECK_COUNT(tiles));
 }
 
 /* What the macro adds up, once by hand: 64 columns of 16 rows in 2x2 samples of RGB444, dithered: 4096 samples of 4 bytes, a number
@@ -193,9 +314,9 @@ static void dots_follow_the_luminance_of_a_sphere(void **state) {
 static void a_white_or_black_window_has_no_dots_of_the_other_kind(void **state) {
     tuile_scene_t scene = {.camera = stage_plain_camera(WIDTH, HEIGHT)};
     (void)state;
-    for (unsigned i = 0; i < 6; i++) {
-        const tuile_config_t config = {
-            .width = WIDTH, .height = HEIGHT, .format = i % 2 ? TUILE_MONO_ROWS : TUILE_MONO_PAGES, .aa = (uint8_t)(i / 2)};
+    static const uint8_t formats[] = {TUILE_MONO_PAGES, TUILE_MONO_ROWS, TUILE_MONO_PAGES_TURNED};
+    for (unsigned i = 0; i < 9; i++) {
+        const tuile_config_t config = {.width = WIDTH, .height = HEIGHT, .format = formats[i % 3], .aa = (uint8_t)(i / 3)};
         for (unsigned white = 0; white < 2; white++) {
             memset(scene.background, white ? 255 : 0, 3);
             uint8_t *picture = frame_draw(&scene, &config, (size_t)1 << 20, NULL);
@@ -249,6 +370,9 @@ int main(void) {
         cmocka_unit_test(tiles_memory_and_method_do_not_move_the_matrix),
         cmocka_unit_test(the_tree_draws_every_format_as_the_z_buffer_does),
         cmocka_unit_test(tiles_that_would_share_bytes_are_refused),
+        cmocka_unit_test(the_default_height_suits_every_format),
+        cmocka_unit_test(turned_pictures_are_the_same_pixels),
+        cmocka_unit_test(whole_colours_are_rounded_to_each_format),
         cmocka_unit_test(the_macro_is_the_least_block_of_every_configuration),
         cmocka_unit_test(the_macro_counts_the_samples),
         cmocka_unit_test(dots_follow_the_luminance_of_a_sphere),

@@ -50,6 +50,18 @@ static void tile_fill(tile_t *tile, uint32_t sample) {
     }
 }
 
+static bool is_mono(unsigned format) {
+    return format == TUILE_MONO_PAGES || format == TUILE_MONO_PAGES_TURNED || format == TUILE_MONO_ROWS;
+}
+
+static bool is_colour(unsigned format) { return format < TUILE_GREY8 || format >= TUILE_RGB111; }
+
+/* Do pixels of one row share bytes? */
+static bool shares_bytes(unsigned format) {
+    return format == TUILE_RGB444 || format == TUILE_GREY4 || format == TUILE_MONO_ROWS || format == TUILE_MONO_PAGES_TURNED ||
+           format == TUILE_RGB111 || format == TUILE_XRGB1111;
+}
+
 /* ---- the matrix ---- */
 
 static void the_matrix_is_bayers(void **state) {
@@ -71,7 +83,7 @@ static void the_matrix_is_bayers(void **state) {
 typedef struct packing {
     uint8_t format;
     unsigned width, height;
-    uint32_t samples[16];
+    uint32_t samples[18];
     uint8_t bytes[16];
     unsigned count;
 } packing_t;
@@ -96,12 +108,31 @@ static void pixels_are_packed_as_the_header_says(void **state) {
         {TUILE_MONO_ROWS, 8, 1, {65535, 0, 0, 0, 0, 0, 65535, 0}, {0x82}, 1},
         {TUILE_MONO_ROWS, 9, 1, {0, 65535, 0, 0, 0, 0, 0, 0, 65535}, {0x40, 0x80}, 2},
         {TUILE_MONO_ROWS, 3, 2, {65535, 0, 65535, 0, 65535, 0}, {0xa0, 0x40}, 2},
+        /* Columns of eight beside one another, the left one in bit 0; bytes run down. */
+        {TUILE_MONO_PAGES_TURNED, 8, 1, {65535, 0, 0, 0, 0, 0, 65535, 0}, {0x41}, 1},
+        {TUILE_MONO_PAGES_TURNED, 2, 3, {65535, 0, 65535, 65535, 0, 65535}, {0x01, 0x03, 0x02}, 3},
+        {TUILE_MONO_PAGES_TURNED,
+         9,
+         2,
+         {65535, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 65535, 65535},
+         {0x01, 0x80, 0x00, 0x01},
+         4},
+        /* Columns begin on whole bytes. */
+        {TUILE_GREY4_TURNED, 1, 2, {65535, 0}, {0xf0}, 1},
+        {TUILE_GREY4_TURNED, 2, 3, {4369, 2 * 4369, 3 * 4369, 4 * 4369, 5 * 4369, 6 * 4369}, {0x13, 0x50, 0x24, 0x60}, 4},
+        /* One string: 100 010, 001 111, 000 011; 127 is below one half and 128 above. */
+        {TUILE_RGB111, 3, 2, {0xff0000, 0x00ff00, 0x0000ff, 0xffffff, 0x000000, 0x00ffff}, {0x22, 0x0f, 0x03}, 3},
+        {TUILE_RGB111, 3, 1, {0x807f80, 0x7f807f, 0x7f7f80}, {0x2a, 0x08}, 2},
+        {TUILE_XRGB1111, 3, 2, {0xff0000, 0x00ff00, 0x0000ff, 0xffffff, 0xffff00, 0x000000}, {0x42, 0x10, 0x76, 0x00}, 4},
+        {TUILE_XRGB1111, 2, 1, {0x807f80, 0x7f807f}, {0x52}, 1},
+        {TUILE_BGR888, 2, 1, {0x123456, 0xabcdef}, {0x56, 0x34, 0x12, 0xef, 0xcd, 0xab}, 6},
+        {TUILE_XRGB8888, 2, 1, {0x123456, 0xabcdef}, {0x56, 0x34, 0x12, 0x00, 0xef, 0xcd, 0xab, 0x00}, 8},
     };
     static tile_t tile;
     (void)state;
     for (unsigned i = 0; i < CHECK_COUNT(packings); i++) {
         const packing_t *p = &packings[i];
-        tile_open(&tile, p->format, TUILE_AA_NONE, p->format >= TUILE_MONO_PAGES, 0, 0, p->width, p->height);
+        tile_open(&tile, p->format, TUILE_AA_NONE, is_mono(p->format), 0, 0, p->width, p->height);
         for (unsigned k = 0; k < p->width * p->height; k++) {
             tile_set(&tile, k % p->width, k / p->width, p->samples[k]);
         }
@@ -134,14 +165,14 @@ static void pixel_by_pixel_a_long_row_is_the_same_as_short_ones(void **state) {
     static tile_t whole, part;
     random_source_t random = random_seed(11);
     (void)state;
-    for (unsigned format = TUILE_RGB444; format <= TUILE_MONO_PAGES; format++) {
-        const bool dither = format == TUILE_MONO_PAGES;
-        if (format == TUILE_RGB444 || format == TUILE_GREY4) { continue; } /* pixels that share bytes */
+    for (unsigned format = TUILE_RGB444; format < TUILE_FORMAT_COUNT; format++) {
+        const bool dither = is_mono(format);
+        if (shares_bytes(format)) { continue; }
         tile_open(&whole, (uint8_t)format, 0, dither, 3, 8, 61, 1);
         const size_t bytes = TUILE_WIRE_BYTES(format, 1u, 1u);
         uint32_t samples[61];
         for (unsigned x = 0; x < 61; x++) {
-            samples[x] = (uint32_t)random_between(&random, 0, format == TUILE_RGB332 ? 255 : 65535);
+            samples[x] = (uint32_t)random_between(&random, 0, format == TUILE_RGB332 ? 255 : is_colour(format) ? 0xffffff : 65535);
             tile_set(&whole, x, 0, samples[x]);
         }
         resolve_tile(&whole.t);
@@ -159,6 +190,7 @@ static void pixel_by_pixel_a_long_row_is_the_same_as_short_ones(void **state) {
 /* Components of pixel (x, y) of a resolved tile: their steps. */
 static void steps_at(const tile_t *tile, unsigned x, unsigned y, unsigned steps[3]) {
     const size_t width = (size_t)tile->t.tile.stride_px >> tile->t.samples, index = y * width + x;
+    const size_t height = (size_t)(tile->t.tile.bottom - tile->t.tile.top) >> tile->t.samples;
     const uint8_t *b = tile->bytes;
     unsigned value;
     switch (tile->t.config.format) {
@@ -183,7 +215,24 @@ static void steps_at(const tile_t *tile, unsigned x, unsigned y, unsigned steps[
     case TUILE_RGB332: steps[0] = b[index] >> 5, steps[1] = b[index] >> 2 & 7, steps[2] = b[index] & 3; break;
     case TUILE_GREY8: steps[0] = b[index]; break;
     case TUILE_GREY4: steps[0] = b[y * ((width + 1) / 2) + x / 2] >> (x % 2 ? 0 : 4) & 15; break;
+    case TUILE_GREY4_TURNED: steps[0] = b[x * ((height + 1) / 2) + y / 2] >> (y % 2 ? 0 : 4) & 15; break;
     case TUILE_MONO_PAGES: steps[0] = b[y / 8 * width + x] >> y % 8 & 1; break;
+    case TUILE_MONO_PAGES_TURNED: steps[0] = b[x / 8 * height + y] >> x % 8 & 1; break;
+    case TUILE_RGB111:
+        assert_int_equal(b[index / 2] >> 6, 0);
+        for (unsigned i = 0; i < 3; i++) {
+            steps[i] = b[index / 2] >> (index % 2 ? 2 - i : 5 - i) & 1;
+        }
+        break;
+    case TUILE_XRGB1111:
+        value = b[y * ((width + 1) / 2) + x / 2] >> (x % 2 ? 0 : 4) & 15;
+        steps[0] = value >> 2, steps[1] = value >> 1 & 1, steps[2] = value & 1;
+        break;
+    case TUILE_BGR888: steps[0] = b[3 * index + 2], steps[1] = b[3 * index + 1], steps[2] = b[3 * index]; break;
+    case TUILE_XRGB8888:
+        assert_int_equal(b[4 * index + 3], 0);
+        steps[0] = b[4 * index + 2], steps[1] = b[4 * index + 1], steps[2] = b[4 * index];
+        break;
     default: steps[0] = b[y * ((width + 7) / 8) + x / 8] >> (7 - x % 8) & 1; break;
     }
 }
@@ -200,11 +249,15 @@ static const unsigned *most_of(uint8_t format) {
         [TUILE_GREY4] = {15},
         [TUILE_MONO_PAGES] = {1},
         [TUILE_MONO_ROWS] = {1},
+        [TUILE_MONO_PAGES_TURNED] = {1},
+        [TUILE_GREY4_TURNED] = {15},
+        [TUILE_RGB111] = {1, 1, 1},
+        [TUILE_XRGB1111] = {1, 1, 1},
+        [TUILE_BGR888] = {255, 255, 255},
+        [TUILE_XRGB8888] = {255, 255, 255},
     };
     return most[format];
 }
-
-static bool is_colour(unsigned format) { return format < TUILE_GREY8; }
 
 /* ---- dithering ---- */
 
@@ -315,13 +368,81 @@ static void samples_are_added_exactly_and_rounded_once(void **state) {
     (void)state;
     for (unsigned round = 0; round < CHECK_ROUNDS(200u); round++) {
         for (unsigned format = 0; format < TUILE_FORMAT_COUNT; format++) {
-            const bool mono = format == TUILE_MONO_PAGES || format == TUILE_MONO_ROWS;
             for (unsigned aa = 0; aa < 3; aa++) {
                 const bool drawn_in_place = aa == 0 && format <= TUILE_RGB565_LE;
                 if (format == TUILE_FACE_IDS) { continue; }
-                if (!mono && !drawn_in_place) { random_tile((uint8_t)format, (uint8_t)aa, false, &random); }
+                if (!is_mono(format) && !drawn_in_place) { random_tile((uint8_t)format, (uint8_t)aa, false, &random); }
                 random_tile((uint8_t)format, (uint8_t)aa, true, &random);
             }
+        }
+    }
+}
+
+/* All values of a component whose samples are whole, without dithering: floor(value * most / 255 + 1/2), whose remainder is never
+ * one half, since 255 is odd. */
+static void without_dithering_components_go_to_the_nearest_step(void **state) {
+    static tile_t tile;
+    (void)state;
+    for (unsigned format = TUILE_RGB666; format < TUILE_FORMAT_COUNT; format++) {
+        if (pixel_kind_of((uint8_t)format, false) != PIXEL_RGB888) { continue; }
+        const unsigned *most = most_of((uint8_t)format);
+        for (unsigned i = 0; i < 3 * 256; i++) {
+            const unsigned value = i / 3, values[3] = {value, 255 - value, value * 7 % 256};
+            tile_open(&tile, (uint8_t)format, (uint8_t)(i % 3), false, 5, 3, 3, 2);
+            tile_fill(&tile, PIXEL_RGB(values[0], values[1], values[2]));
+            resolve_tile(&tile.t);
+            for (unsigned k = 0; k < 6; k++) {
+                unsigned steps[3];
+                steps_at(&tile, k % 3, k / 3, steps);
+                for (unsigned c = 0; c < 3; c++) {
+                    assert_int_equal(steps[c], (2 * values[c] * most[c] + 255) / 510);
+                }
+            }
+        }
+    }
+}
+
+/* ---- turned ---- */
+
+/* Two formats of one kind of sample hold the same steps at each pixel, wherever the tile lies: the matrix does not turn. */
+static void same_steps(uint8_t format, uint8_t other, random_source_t *random) {
+    static tile_t tiles[2];
+    const uint8_t aa = (uint8_t)random_between(random, 0, 2);
+    const bool dither = is_mono(format) || random_between(random, 0, 1) != 0;
+    const unsigned width = (unsigned)random_between(random, 1, (int)(SIDE_MAX >> aa)),
+                   height = (unsigned)random_between(random, 1, 16);
+    const unsigned left = (unsigned)random_between(random, 0, 100), top = (unsigned)random_between(random, 0, 100);
+    tile_open(&tiles[0], format, aa, dither, left, top, width, height);
+    tile_open(&tiles[1], other, aa, dither, left, top, width, height);
+    assert_int_equal(tiles[0].t.pixel_kind, tiles[1].t.pixel_kind);
+    for (unsigned y = 0; y < height << aa; y++) {
+        for (unsigned x = 0; x < width << aa; x++) {
+            const uint32_t sample = (uint32_t)(random_bits(random) & (is_colour(format) ? 0xffffff : 0xffff));
+            tile_set(&tiles[0], x, y, sample);
+            tile_set(&tiles[1], x, y, sample);
+        }
+    }
+    resolve_tile(&tiles[0].t);
+    resolve_tile(&tiles[1].t);
+    for (unsigned i = 0; i < width * height; i++) {
+        unsigned steps[2][3] = {{0}};
+        steps_at(&tiles[0], i % width, i / width, steps[0]);
+        steps_at(&tiles[1], i % width, i / width, steps[1]);
+        assert_memory_equal(steps[0], steps[1], sizeof steps[0]);
+    }
+}
+
+static void turned_pixels_are_those_of_the_upright_format(void **state) {
+    static const uint8_t pairs[][2] = {{TUILE_MONO_PAGES, TUILE_MONO_PAGES_TURNED},
+                                       {TUILE_MONO_ROWS, TUILE_MONO_PAGES_TURNED},
+                                       {TUILE_GREY4, TUILE_GREY4_TURNED},
+                                       {TUILE_RGB111, TUILE_XRGB1111},
+                                       {TUILE_BGR888, TUILE_XRGB8888}};
+    random_source_t random = random_seed(29);
+    (void)state;
+    for (unsigned round = 0; round < CHECK_ROUNDS(200u); round++) {
+        for (unsigned i = 0; i < CHECK_COUNT(pairs); i++) {
+            same_steps(pairs[i][0], pairs[i][1], &random);
         }
     }
 }
@@ -351,6 +472,8 @@ int main(void) {
         cmocka_unit_test(pixel_by_pixel_a_long_row_is_the_same_as_short_ones),
         cmocka_unit_test(the_mean_of_a_dithered_block_is_within_a_128th_of_a_step),
         cmocka_unit_test(samples_are_added_exactly_and_rounded_once),
+        cmocka_unit_test(without_dithering_components_go_to_the_nearest_step),
+        cmocka_unit_test(turned_pixels_are_those_of_the_upright_format),
         cmocka_unit_test(grey_is_the_weighted_sum_of_the_components),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -47,10 +47,13 @@ static size_t layer_depth_bytes(const tuile_config_t *c) {
     return TUILE_NUMBER_BYTES(c->tile_width, c->tile_height, 1u << c->aa);
 }
 
+/* Of a tile of width x height pixels. */
+static size_t wire_bytes(uint8_t format, size_t width, size_t height) { return TUILE_WIRE_BYTES(format, width, height); }
+
 /* What of a block grows with the tile, but for the method's own memory; c in pixels. */
 static size_t tile_bytes_of(const tuile_config_t *c) {
     const unsigned samples = 1u << c->aa;
-    size_t bytes = c->buffers * TUILE_ALIGN64(TUILE_WIRE_BYTES(c->format, c->tile_width, c->tile_height));
+    size_t bytes = c->buffers * TUILE_ALIGN64(wire_bytes(c->format, c->tile_width, c->tile_height));
     bytes += TUILE_WORKING_BYTES(c->tile_width, c->tile_height, c->format, samples, c->dither);
     if (c->effects) { bytes += TUILE_NUMBER_BYTES(c->tile_width, c->tile_height, samples); }
     bytes += layer_depth_bytes(c);
@@ -58,12 +61,26 @@ static size_t tile_bytes_of(const tuile_config_t *c) {
     return bytes;
 }
 
-/* Rows that a tile's height must be a multiple of. */
-static uint16_t rows_together(const tuile_config_t *c) { return c->format == TUILE_MONO_PAGES ? 8 : 1; }
+/* Rows that a tile's height must be a multiple of, unless it reaches the window's lower end. */
+static uint16_t rows_together(const tuile_config_t *c) {
+    return c->format == TUILE_MONO_PAGES ? 8 : c->format == TUILE_GREY4_TURNED ? 2 : 1;
+}
 
 /* Columns that a tile's width must be a multiple of, unless it reaches the window's right end. */
 static uint16_t columns_together(const tuile_config_t *c) {
-    return c->format == TUILE_MONO_ROWS ? 8 : c->format == TUILE_RGB444 || c->format == TUILE_GREY4 ? 2 : 1;
+    switch (c->format) {
+    case TUILE_MONO_ROWS:
+    case TUILE_MONO_PAGES_TURNED: return 8;
+    case TUILE_RGB444:
+    case TUILE_GREY4:
+    case TUILE_RGB111:
+    case TUILE_XRGB1111: return 2;
+    default: return 1;
+    }
+}
+
+static bool is_mono(const tuile_config_t *c) {
+    return c->format == TUILE_MONO_PAGES || c->format == TUILE_MONO_PAGES_TURNED || c->format == TUILE_MONO_ROWS;
 }
 
 /* Tile height that leaves five sixths of the block to the arena: a second pass costs more than lower tiles do. */
@@ -97,7 +114,7 @@ static bool config_complete(tuile_config_t *c, size_t size_bytes) {
         return false;
     }
     if (c->effects & TUILE_LAYERS) { c->effects |= TUILE_SURFACES; }
-    if (c->format == TUILE_MONO_PAGES || c->format == TUILE_MONO_ROWS) { c->dither = true; }
+    if (is_mono(c)) { c->dither = true; }
     if (TUILE_SAMPLE_BYTES(c->format, c->dither) == 4 && c->format != TUILE_FACE_IDS) { c->effects |= TUILE_SURFACES; }
     if (c->buffers == 0) { c->buffers = 2; }
     if (c->tile_width == 0 || c->tile_width > c->width) { c->tile_width = c->width; }
@@ -177,7 +194,7 @@ int tuile_init(tuile_t **renderer, const tuile_config_t *config, void *block, si
     at += tile_bytes;
     for (unsigned b = 0; b < c.buffers; b++) {
         t->colours[b] = at;
-        at += TUILE_ALIGN64(TUILE_WIRE_BYTES(c.format, given.tile_width, given.tile_height));
+        at += TUILE_ALIGN64(wire_bytes(c.format, given.tile_width, given.tile_height));
     }
     if (working_bytes) { t->working = at; }
     at += working_bytes;
@@ -364,7 +381,7 @@ int tuile_next(tuile_t *t, tuile_tile_t *tile) {
         tile->width = (uint16_t)((t->tile.right - t->tile.left) >> t->samples);
         tile->height = (uint16_t)((t->tile.bottom - t->tile.top) >> t->samples);
         tile->bytes = t->colours[t->next_buffer];
-        tile->size_bytes = (uint32_t)TUILE_WIRE_BYTES(t->config.format, tile->width, tile->height);
+        tile->size_bytes = (uint32_t)wire_bytes(t->config.format, tile->width, tile->height);
         if (TUILE_HAS(OVERLAY) && t->given.overlay) { overlay_tile(t); }
         if (TUILE_HAS(RESOLVE) && t->working) { resolve_tile(t); }
         t->next_buffer = (uint8_t)((t->next_buffer + 1) % t->config.buffers);

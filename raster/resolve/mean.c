@@ -136,6 +136,17 @@ TUILE_INLINE uint32_t whole_332(const resolve_run_t *run, uint32_t i) { return w
 
 TUILE_INLINE uint32_t whole_666(const resolve_run_t *run, uint32_t i) { return whole(run, i, 63, 63, 63, 16, 8); }
 
+TUILE_INLINE uint32_t whole_111(const resolve_run_t *run, uint32_t i) { return whole(run, i, 1, 1, 1, 2, 1); }
+
+/* Components of 8 bits are steps themselves. */
+TUILE_INLINE uint32_t mean_8(const resolve_run_t *run, uint32_t i, uint32_t sum) {
+    return (sum * 128u + put_threshold(run, i)) >> (7u + 2u * run->shift);
+}
+
+TUILE_INLINE uint32_t whole_888(const resolve_run_t *run, uint32_t i) {
+    return PIXEL_RGB(mean_8(run, i, run->sums[i] >> 16), mean_8(run, i, run->green[i]), mean_8(run, i, run->sums[i] & 0xffffu));
+}
+
 /* ---- luminance ---- */
 
 /* Sums are at most 16 * 65535, so the numerator is below 2^28. */
@@ -166,6 +177,12 @@ PUT(mean_grey8, put_8(run, bytes, grey8))
 PUT(mean_grey4, put_4(run, bytes, grey4))
 PUT(mean_pages, put_pages(run, bytes, sum_of, run->shift))
 PUT(mean_rows, put_rows(run, bytes, sum_of, run->shift))
+PUT(mean_pages_turned, put_pages_turned(run, bytes, sum_of, run->shift))
+PUT(mean_grey4_turned, put_4_turned(run, bytes, grey4))
+PUT(mean_111, put_3(run, bytes, whole_111))
+PUT(mean_1111, put_4(run, bytes, whole_111))
+PUT(mean_888, put_little(run, bytes, whole_888, 3))
+PUT(mean_8888, put_little(run, bytes, whole_888, 4))
 
 /* A build may have fewer formats. */
 #define WAY(format, sum, put) (TUILE_HAS_FORMAT(format) ? (resolve_way_t){sum, put} : (resolve_way_t){NULL, NULL})
@@ -182,6 +199,12 @@ resolve_way_t resolve_mean(pixel_kind_t kind, uint8_t format) {
     case TUILE_GREY4: return WAY(TUILE_GREY4, sum_luma, mean_grey4);
     case TUILE_MONO_PAGES: return WAY(TUILE_MONO_PAGES, sum_luma, mean_pages);
     case TUILE_MONO_ROWS: return WAY(TUILE_MONO_ROWS, sum_luma, mean_rows);
+    case TUILE_MONO_PAGES_TURNED: return WAY(TUILE_MONO_PAGES_TURNED, sum_luma, mean_pages_turned);
+    case TUILE_GREY4_TURNED: return WAY(TUILE_GREY4_TURNED, sum_luma, mean_grey4_turned);
+    case TUILE_RGB111: return WAY(TUILE_RGB111, sum_888, mean_111);
+    case TUILE_XRGB1111: return WAY(TUILE_XRGB1111, sum_888, mean_1111);
+    case TUILE_BGR888: return WAY(TUILE_BGR888, sum_888, mean_888);
+    case TUILE_XRGB8888: return WAY(TUILE_XRGB8888, sum_888, mean_8888);
     default: return own ? WAY(TUILE_RGB565_BE, sum_565_be, mean_565_be_own) : WAY(TUILE_RGB565_BE, sum_888, mean_565_be);
     }
 }

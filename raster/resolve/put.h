@@ -56,6 +56,27 @@ TUILE_INLINE void put_8(const resolve_run_t *restrict run, uint8_t *restrict byt
     }
 }
 
+/* Pixels of a tile in one string of two a byte: 00RGBRGB, whatever its width. */
+TUILE_INLINE void put_3(const resolve_run_t *restrict run, uint8_t *restrict bytes, resolve_pixel_fn pixel) {
+    const size_t index = put_index(run);
+    for (uint32_t i = 0; i < run->count; i++) {
+        uint8_t *to = bytes + (index + i) / 2;
+        const uint32_t value = pixel(run, i);
+        *to = (uint8_t)((index + i) % 2 ? *to | value : value << 3);
+    }
+}
+
+/* 0x00rrggbb, its bytes from the lowest one on: 3, or 4. */
+TUILE_INLINE void put_little(const resolve_run_t *restrict run, uint8_t *restrict bytes, resolve_pixel_fn pixel, unsigned size) {
+    uint8_t *to = bytes + size * put_index(run);
+    for (uint32_t i = 0; i < run->count; i++, to += size) {
+        const uint32_t value = pixel(run, i);
+        for (unsigned byte = 0; byte < size; byte++) {
+            to[byte] = (uint8_t)(value >> 8 * byte);
+        }
+    }
+}
+
 /* Rows begin on whole bytes. */
 TUILE_INLINE void put_4(const resolve_run_t *restrict run, uint8_t *restrict bytes, resolve_pixel_fn pixel) {
     uint8_t *to = bytes + (size_t)run->y * ((run->width + 1) / 2) + run->x / 2;
@@ -64,6 +85,17 @@ TUILE_INLINE void put_4(const resolve_run_t *restrict run, uint8_t *restrict byt
         *to++ = (uint8_t)(pixel(run, i) << 4 | pixel(run, i + 1));
     }
     if (i < run->count) { *to = (uint8_t)(pixel(run, i) << 4); }
+}
+
+/* The same with x and y exchanged: columns begin on whole bytes. */
+TUILE_INLINE void put_4_turned(const resolve_run_t *restrict run, uint8_t *restrict bytes, resolve_pixel_fn pixel) {
+    const size_t column = (run->height + 1) / 2;
+    uint8_t *to = bytes + run->x * column + run->y / 2;
+    const bool second = run->y % 2 != 0;
+    for (uint32_t i = 0; i < run->count; i++, to += column) {
+        const uint32_t value = pixel(run, i);
+        *to = (uint8_t)(second ? *to | value : value << 4);
+    }
 }
 
 /* ---- luminance: 65535 = 255 * 257 = 15 * 4369, so a step of GREY8 is 257, one of GREY4 4369 ---- */
@@ -93,18 +125,28 @@ TUILE_INLINE void put_pages(const resolve_run_t *restrict run, uint8_t *restrict
     }
 }
 
-TUILE_INLINE void put_rows(const resolve_run_t *restrict run, uint8_t *restrict bytes, resolve_pixel_fn sum, unsigned shift) {
-    uint8_t *to = bytes + (size_t)run->y * ((run->width + 7) / 8) + run->x / 8;
+/* Bytes of 8 pixels beside one another, `apart` bytes from one to the next; the leftmost pixel is bit `first`, 0 or 7. */
+TUILE_INLINE void put_dots(const resolve_run_t *restrict run, uint8_t *restrict to, size_t apart, unsigned first,
+                           resolve_pixel_fn sum, unsigned shift) {
     uint32_t limits[RESOLVE_MATRIX];
     put_limits(run, limits, shift);
-    for (uint32_t i = 0; i < run->count; i += 8) {
+    for (uint32_t i = 0; i < run->count; i += 8, to += apart) {
         const uint32_t here = run->count - i < 8 ? run->count - i : 8;
         unsigned dots = 0;
         for (uint32_t k = 0; k < here; k++) {
-            dots |= (unsigned)(sum(run, i + k) >= limits[k]) << (7 - k);
+            dots |= (unsigned)(sum(run, i + k) >= limits[k]) << (k ^ first);
         }
-        to[i / 8] = (uint8_t)dots;
+        *to = (uint8_t)dots;
     }
+}
+
+TUILE_INLINE void put_rows(const resolve_run_t *restrict run, uint8_t *restrict bytes, resolve_pixel_fn sum, unsigned shift) {
+    put_dots(run, bytes + (size_t)run->y * ((run->width + 7) / 8) + run->x / 8, 1, 7, sum, shift);
+}
+
+TUILE_INLINE void put_pages_turned(const resolve_run_t *restrict run, uint8_t *restrict bytes, resolve_pixel_fn sum,
+                                   unsigned shift) {
+    put_dots(run, bytes + (size_t)(run->x / 8) * run->height + run->y, run->height, 0, sum, shift);
 }
 
 #endif

@@ -32,8 +32,8 @@ void resolve_tile(const tuile_t *t) {
     run.stride = (size_t)t->tile.stride_px;
     run.width = (uint32_t)t->tile.stride_px >> run.shift;
     const uint32_t left = (uint32_t)t->tile.left >> run.shift, top = (uint32_t)t->tile.top >> run.shift;
-    const uint32_t height = ((uint32_t)t->tile.bottom >> run.shift) - top;
-    for (run.y = 0; run.y < height; run.y++, row += (run.stride << run.shift) * pixel_bytes(kind)) {
+    run.height = ((uint32_t)t->tile.bottom >> run.shift) - top;
+    for (run.y = 0; run.y < run.height; run.y++, row += (run.stride << run.shift) * pixel_bytes(kind)) {
         thresholds_make(&run, t->given.dither, left, top + run.y);
         for (run.x = 0; run.x < run.width; run.x += RESOLVE_RUN) {
             run.count = run.width - run.x < RESOLVE_RUN ? run.width - run.x : RESOLVE_RUN;

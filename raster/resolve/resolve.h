@@ -26,7 +26,7 @@ typedef struct resolve_run {
     uint32_t sums[RESOLVE_RUN];          /* of a pixel's samples, in fields of one word (mean.c) */
     uint32_t green[RESOLVE_RUN];         /* RGB888: the sums that have no room there */
     uint32_t thresholds[RESOLVE_MATRIX]; /* of pixel i at i % 8: 128ths of a step, times the samples of a pixel */
-    uint32_t width;                      /* of the tile, in pixels */
+    uint32_t width, height;              /* of the tile, in pixels */
     uint32_t x, y, count;                /* the run: its first pixel in the tile, 1 ... RESOLVE_RUN; x is a multiple of 8 */
 } resolve_run_t;
 

@@ -29,6 +29,11 @@ TUILE_INLINE uint32_t whole_332(const resolve_run_t *run, uint32_t i) { return w
 
 TUILE_INLINE uint32_t whole_666(const resolve_run_t *run, uint32_t i) { return whole(run, i, 63, 63, 63, 16, 8); }
 
+TUILE_INLINE uint32_t whole_111(const resolve_run_t *run, uint32_t i) { return whole(run, i, 1, 1, 1, 2, 1); }
+
+/* Components of 8 bits are whole steps, which no threshold moves. */
+TUILE_INLINE uint32_t sample_32(const resolve_run_t *run, uint32_t i) { return ((const uint32_t *)run->samples)[i]; }
+
 /* At most 65535 + (127 * step >> 7). */
 TUILE_INLINE uint32_t raised(const resolve_run_t *run, uint32_t i, uint32_t step) {
     return (sample_16(run, i) * 128u + put_threshold(run, i) * step) >> 7;
@@ -51,6 +56,12 @@ PUT(single_grey8, put_8(run, bytes, grey8))
 PUT(single_grey4, put_4(run, bytes, grey4))
 PUT(single_pages, put_pages(run, bytes, sample_16, 0))
 PUT(single_rows, put_rows(run, bytes, sample_16, 0))
+PUT(single_pages_turned, put_pages_turned(run, bytes, sample_16, 0))
+PUT(single_grey4_turned, put_4_turned(run, bytes, grey4))
+PUT(single_111, put_3(run, bytes, whole_111))
+PUT(single_1111, put_4(run, bytes, whole_111))
+PUT(single_888, put_little(run, bytes, sample_32, 3))
+PUT(single_8888, put_little(run, bytes, sample_32, 4))
 
 /* A build may have fewer formats. */
 #define WAY(format, put) ((resolve_way_t){NULL, TUILE_HAS_FORMAT(format) ? (put) : NULL})
@@ -66,6 +77,12 @@ resolve_way_t resolve_single(pixel_kind_t kind, uint8_t format) {
     case TUILE_GREY4: return WAY(TUILE_GREY4, single_grey4);
     case TUILE_MONO_PAGES: return WAY(TUILE_MONO_PAGES, single_pages);
     case TUILE_MONO_ROWS: return WAY(TUILE_MONO_ROWS, single_rows);
+    case TUILE_MONO_PAGES_TURNED: return WAY(TUILE_MONO_PAGES_TURNED, single_pages_turned);
+    case TUILE_GREY4_TURNED: return WAY(TUILE_GREY4_TURNED, single_grey4_turned);
+    case TUILE_RGB111: return WAY(TUILE_RGB111, single_111);
+    case TUILE_XRGB1111: return WAY(TUILE_XRGB1111, single_1111);
+    case TUILE_BGR888: return WAY(TUILE_BGR888, single_888);
+    case TUILE_XRGB8888: return WAY(TUILE_XRGB8888, single_8888);
     default: return WAY(TUILE_RGB565_BE, single_565_be);
     }
 }

@@ -25,13 +25,19 @@ void block_close(block_t *block) {
 /* Bytes of a pixel in a picture: formats that pack pixels have one number of one or two bytes for each. */
 static size_t pixel_bytes_of(uint8_t format) {
     switch (format) {
-    case TUILE_FACE_IDS: return 4;
-    case TUILE_RGB666: return 3;
+    case TUILE_FACE_IDS:
+    case TUILE_XRGB8888: return 4;
+    case TUILE_RGB666:
+    case TUILE_BGR888: return 3;
     case TUILE_RGB332:
     case TUILE_GREY8:
     case TUILE_GREY4:
     case TUILE_MONO_PAGES:
-    case TUILE_MONO_ROWS: return 1;
+    case TUILE_MONO_ROWS:
+    case TUILE_MONO_PAGES_TURNED:
+    case TUILE_GREY4_TURNED:
+    case TUILE_RGB111:
+    case TUILE_XRGB1111: return 1;
     default: return 2;
     }
 }
@@ -41,7 +47,11 @@ static size_t tile_bytes_of(uint8_t format, size_t width, size_t height) {
     case TUILE_RGB444: return (width * height * 12 + 7) / 8;
     case TUILE_GREY4: return (width * 4 + 7) / 8 * height;
     case TUILE_MONO_PAGES: return width * ((height + 7) / 8);
-    case TUILE_MONO_ROWS: return (width + 7) / 8 * height;
+    case TUILE_MONO_ROWS:
+    case TUILE_MONO_PAGES_TURNED: return (width + 7) / 8 * height;
+    case TUILE_GREY4_TURNED: return (height * 4 + 7) / 8 * width;
+    case TUILE_RGB111: return (width * height + 1) / 2;
+    case TUILE_XRGB1111: return (width * 4 + 7) / 8 * height;
     default: return width * height * pixel_bytes_of(format);
     }
 }
@@ -55,9 +65,13 @@ static void unpack(uint8_t *to, uint8_t format, const tuile_tile_t *tile, size_t
         to[0] = (uint8_t)(index % 2 ? bytes[index / 2 * 3 + 2] : bytes[index / 2 * 3] << 4 | bytes[index / 2 * 3 + 1] >> 4);
         to[1] = index % 2 ? bytes[index / 2 * 3 + 1] & 15 : bytes[index / 2 * 3] >> 4;
         break;
+    case TUILE_XRGB1111:
     case TUILE_GREY4: to[0] = bytes[y * ((width + 1) / 2) + x / 2] >> (x % 2 ? 0 : 4) & 15; break;
     case TUILE_MONO_PAGES: to[0] = bytes[y / 8 * width + x] >> y % 8 & 1; break;
     case TUILE_MONO_ROWS: to[0] = bytes[y * ((width + 7) / 8) + x / 8] >> (7 - x % 8) & 1; break;
+    case TUILE_MONO_PAGES_TURNED: to[0] = bytes[x / 8 * tile->height + y] >> x % 8 & 1; break;
+    case TUILE_GREY4_TURNED: to[0] = bytes[x * ((tile->height + 1u) / 2) + y / 2] >> (y % 2 ? 0 : 4) & 15; break;
+    case TUILE_RGB111: to[0] = bytes[index / 2] >> (index % 2 ? 0 : 3) & 7; break;
     default: memcpy(to, bytes + index * pixel_bytes_of(format), pixel_bytes_of(format)); break;
     }
 }

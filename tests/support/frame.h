@@ -20,8 +20,8 @@ void block_close(block_t *block);
 /* The least block for the configuration. */
 size_t frame_least_bytes(const tuile_config_t *config);
 
-/* Of the whole picture: a pixel's wire bytes, or, where pixels share bytes, 1 byte for GREY4 (0 ... 15) and MONO (0, 1) and 2 for
- * RGB444, little-endian, 0x0rgb. */
+/* Of the whole picture: a pixel's wire bytes, or, where pixels share bytes, 1 byte for GREY4 (0 ... 15), MONO (0, 1) and formats
+ * with a bit of each colour (0 ... 7, red above), and 2 for RGB444, little-endian, 0x0rgb. */
 size_t frame_bytes(const tuile_config_t *config);
 
 /* A picture with nothing in it yet, to be released with free. */
