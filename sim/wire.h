@@ -11,4 +11,7 @@
  * byte. */
 int wire_paste(const sim_picture_t *picture, uint8_t format, const tuile_tile_t *tile, sim_error_t *error);
 
+/* What a tile's place is a multiple of, in pixels, so that no byte belongs to two tiles. format: one that has pixels. */
+void wire_unit(uint8_t format, unsigned *columns, unsigned *rows);
+
 #endif

@@ -28,6 +28,12 @@ static const struct {
     {TUILE_GREY4, 3, {0x1f, 0x80}, 2, {0x111111, 0xffffff, 0x888888}},
     {TUILE_MONO_ROWS, 10, {0x81, 0x40}, 2, {0xffffff, 0, 0, 0, 0, 0, 0, 0xffffff, 0, 0xffffff}},
     {TUILE_MONO_PAGES, 3, {0x01, 0xfe, 0x81}, 3, {0xffffff, 0, 0xffffff}},
+    {TUILE_MONO_PAGES_TURNED, 10, {0x81, 0x02}, 2, {0xffffff, 0, 0, 0, 0, 0, 0, 0xffffff, 0, 0xffffff}},
+    {TUILE_GREY4_TURNED, 3, {0x10, 0xf0, 0x80}, 3, {0x111111, 0xffffff, 0x888888}},
+    {TUILE_RGB111, 5, {0x22, 0x0f, 0x18}, 3, {0xff0000, 0x00ff00, 0x0000ff, 0xffffff, 0x00ffff}},
+    {TUILE_XRGB1111, 3, {0x46, 0x50}, 2, {0xff0000, 0xffff00, 0xff00ff}},
+    {TUILE_BGR888, 2, {0x56, 0x34, 0x12, 0xef, 0xcd, 0xab}, 6, {0x123456, 0xabcdef}},
+    {TUILE_XRGB8888, 2, {0x56, 0x34, 0x12, 0x00, 0xef, 0xcd, 0xab, 0x00}, 8, {0x123456, 0xabcdef}},
 };
 
 static void the_decoder_reads_what_is_on_the_wire(void **state) {
@@ -61,6 +67,84 @@ static void pages_are_read_downwards_from_bit_0(void **state) {
     for (unsigned y = 0; y < 9; y++) {
         assert_int_equal(*sim_picture_at(&picture, 0, y), y == 0 || y == 2 || y == 8 ? 255 : 0);
         assert_int_equal(*sim_picture_at(&picture, 1, y), y == 7 ? 255 : 0);
+    }
+    sim_picture_free(&picture);
+}
+
+static void turned_pages_are_read_to_the_right_from_bit_0(void **state) {
+    static const uint8_t bytes[] = {0x05, 0x80, 0x01, 0x00};
+    const tuile_tile_t tile = {.width = 9, .height = 2, .bytes = bytes, .size_bytes = 4};
+    sim_picture_t picture = {0};
+    (void)state;
+    assert_int_equal(sim_picture_create(&picture, 9, 2, NULL), 0);
+    assert_int_equal(wire_paste(&picture, TUILE_MONO_PAGES_TURNED, &tile, NULL), 0);
+    for (unsigned x = 0; x < 9; x++) {
+        assert_int_equal(*sim_picture_at(&picture, x, 0), x == 0 || x == 2 || x == 8 ? 255 : 0);
+        assert_int_equal(*sim_picture_at(&picture, x, 1), x == 7 ? 255 : 0);
+    }
+    sim_picture_free(&picture);
+}
+
+static void turned_greys_are_read_downwards_from_the_high_half(void **state) {
+    static const uint8_t bytes[] = {0x13, 0x50, 0x24, 0x60};
+    const tuile_tile_t tile = {.width = 2, .height = 3, .bytes = bytes, .size_bytes = 4};
+    sim_picture_t picture = {0};
+    (void)state;
+    assert_int_equal(sim_picture_create(&picture, 2, 3, NULL), 0);
+    assert_int_equal(wire_paste(&picture, TUILE_GREY4_TURNED, &tile, NULL), 0);
+    for (unsigned i = 0; i < 6; i++) {
+        assert_int_equal(*sim_picture_at(&picture, i % 2, i / 2), 0x11 * (i + 1));
+    }
+    sim_picture_free(&picture);
+}
+
+static void rows_of_rgb111_are_one_string_and_of_xrgb1111_are_not(void **state) {
+    static const uint8_t bytes[] = {0x0a, 0x1c, 0x26, 0x00}; /* 001 010, 011 100, 100 110; rows of nibbles: 0 a 1, 2 6 0 */
+    const tuile_tile_t tile = {.width = 3, .height = 2, .bytes = bytes, .size_bytes = 3},
+                       whole = {.width = 3, .height = 2, .bytes = bytes, .size_bytes = 4};
+    static const uint32_t string[] = {0x0000ff, 0x00ff00, 0x00ffff, 0xff0000, 0xff0000, 0xffff00},
+                          rows_of[] = {0x000000, 0x00ff00, 0x0000ff, 0x00ff00, 0xffff00, 0x000000};
+    (void)state;
+    for (unsigned k = 0; k < 2; k++) {
+        sim_picture_t picture = {0};
+        assert_int_equal(sim_picture_create(&picture, 3, 2, NULL), 0);
+        assert_int_equal(wire_paste(&picture, k ? TUILE_XRGB1111 : TUILE_RGB111, k ? &whole : &tile, NULL), 0);
+        for (unsigned i = 0; i < 6; i++) {
+            const uint8_t *p = sim_picture_at(&picture, i % 3, i / 3);
+            assert_int_equal((uint32_t)p[0] << 16 | (uint32_t)p[1] << 8 | p[2], k ? rows_of[i] : string[i]);
+        }
+        sim_picture_free(&picture);
+    }
+}
+
+static void a_tile_that_begins_within_a_byte_is_refused(void **state) {
+    static const struct {
+        uint8_t format;
+        uint16_t x, y;
+        unsigned size_bytes; /* of 8x8 pixels */
+        int result;
+    } tiles[] = {
+        {TUILE_MONO_PAGES_TURNED, 4, 0, 8, -1},
+        {TUILE_MONO_PAGES_TURNED, 8, 1, 8, 0},
+        {TUILE_MONO_PAGES, 8, 1, 8, -1},
+        {TUILE_MONO_PAGES, 4, 8, 8, 0},
+        {TUILE_GREY4_TURNED, 0, 1, 32, -1},
+        {TUILE_GREY4_TURNED, 1, 2, 32, 0},
+        {TUILE_GREY4, 1, 0, 32, -1},
+        {TUILE_RGB111, 1, 0, 32, -1},
+        {TUILE_RGB111, 2, 1, 32, 0},
+        {TUILE_XRGB1111, 3, 0, 32, -1},
+        {TUILE_XRGB1111, 2, 1, 32, 0},
+        {TUILE_BGR888, 1, 1, 192, 0},
+        {TUILE_XRGB8888, 1, 1, 256, 0},
+    };
+    static const uint8_t bytes[256];
+    sim_picture_t picture = {0};
+    (void)state;
+    assert_int_equal(sim_picture_create(&picture, 16, 16, NULL), 0);
+    for (unsigned i = 0; i < CHECK_COUNT(tiles); i++) {
+        const tuile_tile_t tile = {tiles[i].x, tiles[i].y, 8, 8, bytes, tiles[i].size_bytes};
+        if (wire_paste(&picture, tiles[i].format, &tile, NULL) != tiles[i].result) { fail_msg("tile %u", i); }
     }
     sim_picture_free(&picture);
 }
@@ -199,6 +283,10 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_decoder_reads_what_is_on_the_wire),
         cmocka_unit_test(pages_are_read_downwards_from_bit_0),
+        cmocka_unit_test(turned_pages_are_read_to_the_right_from_bit_0),
+        cmocka_unit_test(turned_greys_are_read_downwards_from_the_high_half),
+        cmocka_unit_test(rows_of_rgb111_are_one_string_and_of_xrgb1111_are_not),
+        cmocka_unit_test(a_tile_that_begins_within_a_byte_is_refused),
         cmocka_unit_test(the_decoder_shows_what_the_panel_shows),
         cmocka_unit_test(every_format_has_a_picture_of_its_own),
         cmocka_unit_test(bytes_on_the_wire_are_the_formats),

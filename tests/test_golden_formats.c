@@ -23,6 +23,10 @@ static const struct {
     {"sphere-grey4-dithered", sphere, 120, 90, TUILE_GREY4, TUILE_AA_NONE, true},
     {"room-rgb332-dithered", model_room, 120, 90, TUILE_RGB332, TUILE_AA_NONE, true},
     {"room-rgb444-aa-2x2", model_room, 121, 91, TUILE_RGB444, TUILE_AA_2X2, false},
+    {"sphere-mono-pages-turned", sphere, 61, 90, TUILE_MONO_PAGES_TURNED, TUILE_AA_NONE, true},
+    {"sphere-grey4-turned-dithered", sphere, 61, 91, TUILE_GREY4_TURNED, TUILE_AA_NONE, true},
+    {"room-rgb111-dithered", model_room, 121, 91, TUILE_RGB111, TUILE_AA_2X2, true},
+    {"torus-bgr888", torus, 80, 60, TUILE_BGR888, TUILE_AA_2X2, false},
     {"torus-aa-4x4", torus, 120, 90, TUILE_RGB565_BE, TUILE_AA_4X4, false},
 };
 
