@@ -8,15 +8,19 @@
 
 const char render_format_usage[] =
     "  --format F               rgb565be (default, goes to the panel), rgb565le, rgb444, rgb666, rgb332, grey8, grey4,\n"
-    "                           mono-pages, mono-rows: decoded without a panel\n"
+    "                           mono-pages, mono-rows, mono-pages-turned, grey4-turned, rgb111, xrgb1111, bgr888,\n"
+    "                           xrgb8888: decoded without a panel\n"
     "  --dither                 ordered dithering; mono is always dithered\n"
     "  --aa none|2x2|4x4        samples of each pixel\n"
     "  --size WxH               the panel's size at --rotate 0, for formats other than rgb565be; 240x320 by default\n";
 
-static const char *const names[] = {"rgb565be", "rgb565le", "rgb444",     "rgb666",    "rgb332",
-                                    "grey8",    "grey4",    "mono-pages", "mono-rows", NULL};
-static const uint8_t formats[] = {TUILE_RGB565_BE, TUILE_RGB565_LE, TUILE_RGB444,     TUILE_RGB666,   TUILE_RGB332,
-                                  TUILE_GREY8,     TUILE_GREY4,     TUILE_MONO_PAGES, TUILE_MONO_ROWS};
+static const char *const names[] = {
+    "rgb565be",  "rgb565le",          "rgb444",       "rgb666", "rgb332",   "grey8",  "grey4",    "mono-pages",
+    "mono-rows", "mono-pages-turned", "grey4-turned", "rgb111", "xrgb1111", "bgr888", "xrgb8888", NULL};
+static const uint8_t formats[] = {TUILE_RGB565_BE,    TUILE_RGB565_LE, TUILE_RGB444,     TUILE_RGB666,    TUILE_RGB332,
+                                  TUILE_GREY8,        TUILE_GREY4,     TUILE_MONO_PAGES, TUILE_MONO_ROWS, TUILE_MONO_PAGES_TURNED,
+                                  TUILE_GREY4_TURNED, TUILE_RGB111,    TUILE_XRGB1111,   TUILE_BGR888,    TUILE_XRGB8888};
+_Static_assert(sizeof formats / sizeof *formats == sizeof names / sizeof *names - 1, "a name for each format");
 static const char *const samples[] = {"none", "2x2", "4x4", NULL};
 
 const char *render_format_name(uint8_t format) {
@@ -48,8 +52,8 @@ bool render_format_is_decoded(const render_format_t *part) { return part->format
 
 /* What a tile's size must be a multiple of, so that no byte belongs to two tiles. */
 static int check_tile(const tuile_config_t *c) {
-    const unsigned columns = c->format == TUILE_MONO_ROWS ? 8 : c->format == TUILE_RGB444 || c->format == TUILE_GREY4 ? 2 : 1;
-    const unsigned rows = c->format == TUILE_MONO_PAGES ? 8 : 1;
+    unsigned columns, rows;
+    wire_unit(c->format, &columns, &rows);
     if (c->tile_width < c->width && c->tile_width % columns != 0) {
         return command_fail("--tile %ux%u: the width of a tile of %s is a multiple of %u, or the window's", c->tile_width,
                             c->tile_height, render_format_name(c->format), columns);

@@ -177,7 +177,13 @@ static void the_decoder_shows_what_the_panel_shows(void **state) {
 
 /* Every option makes another picture, and the same one in any memory and tiles. */
 static void every_format_has_a_picture_of_its_own(void **state) {
-    static const char *const formats[] = {"rgb565be", "rgb444", "rgb666", "rgb332", "grey8", "grey4", "mono-pages"};
+    static const char *const formats[] = {"rgb565be", "rgb444",     "rgb666", "rgb332", "grey8",
+                                          "grey4",    "mono-pages", "rgb111", "bgr888"};
+    static const char *const same[][2] = {{"mono-rows", "mono-pages"},
+                                          {"mono-pages-turned", "mono-pages"},
+                                          {"grey4-turned", "grey4"},
+                                          {"xrgb1111", "rgb111"},
+                                          {"xrgb8888", "bgr888"}};
     char hashes[CHECK_COUNT(formats)][64], other[64], line[160];
     (void)state;
     for (unsigned i = 0; i < CHECK_COUNT(formats); i++) {
@@ -190,16 +196,24 @@ static void every_format_has_a_picture_of_its_own(void **state) {
         hash_of(other, sizeof other, line);
         assert_string_equal(hashes[i], other);
     }
-    hash_of(other, sizeof other, "--shade gouraud --format mono-rows");
-    assert_string_equal(hashes[6], other);
+    for (unsigned i = 0; i < CHECK_COUNT(same); i++) {
+        char hash[64];
+        (void)snprintf(line, sizeof line, "--shade gouraud --format %s", same[i][0]);
+        hash_of(other, sizeof other, line);
+        (void)snprintf(line, sizeof line, "--shade gouraud --format %s", same[i][1]);
+        hash_of(hash, sizeof hash, line);
+        assert_string_equal(hash, other);
+    }
 }
 
 static void bytes_on_the_wire_are_the_formats(void **state) {
     static const struct {
         const char *format;
         unsigned bytes; /* of 240x320 pixels */
-    } formats[] = {{"rgb565le", 153600}, {"rgb444", 115200}, {"rgb666", 230400},   {"rgb332", 76800},
-                   {"grey8", 76800},     {"grey4", 38400},   {"mono-pages", 9600}, {"mono-rows", 9600}};
+    } formats[] = {
+        {"rgb565le", 153600}, {"rgb444", 115200},   {"rgb666", 230400},  {"rgb332", 76800},           {"grey8", 76800},
+        {"grey4", 38400},     {"mono-pages", 9600}, {"mono-rows", 9600}, {"mono-pages-turned", 9600}, {"grey4-turned", 38400},
+        {"rgb111", 38400},    {"xrgb1111", 38400},  {"bgr888", 230400},  {"xrgb8888", 307200}};
     char line[160];
     (void)state;
     for (unsigned i = 0; i < CHECK_COUNT(formats); i++) {
@@ -266,11 +280,16 @@ static void what_does_not_go_together_is_refused(void **state) {
     cli_fails("render @/cube.obj --format mono-rows --tile 12x8", "--tile 12x8", "multiple of 8");
     cli_fails("render @/cube.obj --format rgb444 --tile 15x8", "--tile 15x8", "multiple of 2");
     cli_fails("render @/cube.obj --format grey4 --tile 1x8", "--tile 1x8", "multiple of 2");
+    cli_fails("render @/cube.obj --format mono-pages-turned --tile 12x8", "--tile 12x8", "multiple of 8");
+    cli_fails("render @/cube.obj --format grey4-turned --tile 240x5", "--tile 240x5", "multiple of 2");
+    cli_fails("render @/cube.obj --format rgb111 --tile 15x8", "--tile 15x8", "multiple of 2");
+    cli_fails("render @/cube.obj --format xrgb1111 --tile 15x8", "--tile 15x8", "multiple of 2");
     cli_fails("render @/cube.obj --format grey8 --memory 2K", "--memory", "at least");
 }
 
 static void help_names_the_options(void **state) {
-    static const char *const options[] = {"--format", "--dither", "--aa", "--size", "rgb332", "mono-rows"};
+    static const char *const options[] = {"--format",          "--dither",     "--aa",   "--size",   "rgb332", "mono-rows",
+                                          "mono-pages-turned", "grey4-turned", "rgb111", "xrgb1111", "bgr888", "xrgb8888"};
     char *out = cli_good("render --help");
     (void)state;
     for (unsigned i = 0; i < CHECK_COUNT(options); i++) {
