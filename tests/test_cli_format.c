@@ -227,6 +227,27 @@ static void bytes_on_the_wire_are_the_formats(void **state) {
     (void)unlink(cli_path("report.json"));
 }
 
+/* One tile of 129x61 pixels: in one string, rows of 65 or 17 bytes, columns of 31, 8 pages of 129, 17 turned ones of 61. */
+static void sides_that_are_odd_tell_strings_rows_and_columns_apart(void **state) {
+    static const struct {
+        const char *format;
+        unsigned bytes;
+    } formats[] = {{"rgb444", 11804},      {"grey4", 65 * 61},         {"mono-pages", 8 * 129},
+                   {"mono-rows", 17 * 61}, {"grey4-turned", 31 * 129}, {"mono-pages-turned", 17 * 61},
+                   {"rgb111", 3935},       {"xrgb1111", 65 * 61}};
+    char line[160];
+    (void)state;
+    for (unsigned i = 0; i < CHECK_COUNT(formats); i++) {
+        (void)snprintf(line, sizeof line, "render @/cube.obj --format %s --size 129x61 --tile 129x61 --report @/report.json",
+                       formats[i].format);
+        cli_good_silent(line);
+        char *report = command_read(cli_path("report.json"), NULL);
+        assert_int_equal(cli_number_after(report, "\"wire_bytes\": "), formats[i].bytes);
+        free(report);
+    }
+    (void)unlink(cli_path("report.json"));
+}
+
 static void a_window_may_have_another_size(void **state) {
     sim_picture_t picture = {0};
     (void)state;
@@ -309,6 +330,7 @@ int main(void) {
         cmocka_unit_test(the_decoder_shows_what_the_panel_shows),
         cmocka_unit_test(every_format_has_a_picture_of_its_own),
         cmocka_unit_test(bytes_on_the_wire_are_the_formats),
+        cmocka_unit_test(sides_that_are_odd_tell_strings_rows_and_columns_apart),
         cmocka_unit_test(a_window_may_have_another_size),
         cmocka_unit_test(ids_pick_and_show_do_not_mind_the_format),
         cmocka_unit_test(what_does_not_go_together_is_refused),
