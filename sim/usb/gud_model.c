@@ -355,6 +355,7 @@ static void expect_frame(sim_gud_t *gud) {
     gud->place = (place_t){.width = seen_width(gud), .height = seen_height(gud)};
     gud->place.length = sim_gud_row_bytes(gud->state.format, gud->place.width) * gud->place.height;
     gud->expected = gud->place.length;
+    gud->received = 0;
 }
 
 static int finish(sim_gud_t *gud) {
