@@ -22,6 +22,25 @@ static int open_sim(target_t *target, tuile_display_config_t *display, sim_error
     return 0;
 }
 
+static tuile_linux_line_t line_of(const target_line_t *line) {
+    return (tuile_linux_line_t){line->chip[0] ? line->chip : NULL, line->offset, line->active_low};
+}
+
+static int open_spi(target_t *target, tuile_display_config_t *display, sim_error_t *error) {
+    const target_config_t *config = &target->config;
+    const tuile_linux_config_t port = {.spi = config->device,
+                                       .mode = config->mode,
+                                       .dc = line_of(&config->dc),
+                                       .reset = line_of(&config->reset),
+                                       .backlight = line_of(&config->backlight),
+                                       .tearing = line_of(&config->tearing),
+                                       .no_worker = config->no_worker};
+    const int result = tuile_linux_open(&target->port, &port);
+    if (result) { return sim_fail(error, "%s: %s: %s", config->text, tuile_hal_error_text(result), target->port.fault.text); }
+    display->bus = &target->port.bus;
+    return 0;
+}
+
 static int start(target_t *target, const tuile_display_config_t *display, sim_error_t *error) {
     const int result = tuile_display_init(&target->display, display);
     const char *detail = target_detail(target);
@@ -36,11 +55,12 @@ int target_open(target_t *target, const target_config_t *config, uint8_t rotatio
                                       .wire = wire,
                                       .brightness = config->brightness,
                                       .identify = config->identify,
+                                      .tearing_timeout_ms = config->tearing_timeout_ms,
                                       .command_clock_hz = config->command_clock_hz,
                                       .pixel_clock_hz = config->clock_hz};
     if (!display.command_clock_hz) { display.command_clock_hz = config->panel.command_clock_hz; }
     if (!display.pixel_clock_hz) { display.pixel_clock_hz = config->panel.pixel_clock_hz; }
-    if (open_sim(target, &display, error) || start(target, &display, error)) {
+    if ((config->kind == TARGET_SPI ? open_spi : open_sim)(target, &display, error) || start(target, &display, error)) {
         target_close(target);
         return -1;
     }
@@ -49,12 +69,13 @@ int target_open(target_t *target, const target_config_t *config, uint8_t rotatio
 
 void target_close(target_t *target) {
     (void)tuile_display_close(&target->display);
+    tuile_linux_close(&target->port);
     if (target->chip) { target->chip->destroy(target->chip); }
     target->chip = NULL;
 }
 
 const char *target_detail(const target_t *target) {
-    if (!target->chip) { return ""; }
+    if (!target->chip) { return target->port.fault.text; }
     return target->bus.error.text[0] ? target->bus.error.text : target->chip->fault.text;
 }
 

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "../hal/display.h"
+#include "../hal/linux/bus.h"
 #include "bus.h"
 #include "error.h"
 #include "mcu.h"
@@ -15,7 +16,15 @@
 
 typedef enum target_kind {
     TARGET_SIM,
+    TARGET_SPI,
 } target_kind_t;
+
+/* A GPIO line by name: "gpiochip0:25", or "gpiochip0:25:low". */
+typedef struct target_line {
+    char chip[48]; /* "" = not connected */
+    uint32_t offset;
+    bool active_low;
+} target_line_t;
 
 /* What the text says. */
 typedef struct target_config {
@@ -28,7 +37,12 @@ typedef struct target_config {
     uint32_t clock_hz;         /* of pixels; 0 = the panel's usual one */
     uint32_t command_clock_hz; /* 0 = the panel's */
     uint32_t max_chunk_bytes;  /* SIM; 0 = no limit */
-    uint8_t brightness;        /* 0 = full */
+    char device[64];           /* SPI: the node */
+    target_line_t dc, reset, backlight, tearing;
+    uint32_t tearing_timeout_ms; /* 0 = frames do not wait */
+    uint8_t mode;                /* SPI */
+    bool no_worker;
+    uint8_t brightness; /* 0 = full */
     bool identify;
 } target_config_t;
 
@@ -48,7 +62,8 @@ typedef struct target {
 
     sim_chip_t *chip; /* SIM; else NULL */
     sim_bus_t bus;
-    uint64_t begun_ns; /* of the frame: the time of the day */
+    tuile_linux_t port; /* SPI */
+    uint64_t begun_ns;  /* of the frame: the time of the day */
 } target_t;
 
 /* Opens it and starts the display; wire: tuile_wire_t. 0, or -1 and one line in error; then nothing is left open. */

@@ -46,6 +46,7 @@ static bool read_flag(const char *text, bool *flag) {
     return true;
 }
 
+#define TEARING_TIMEOUT_MS 100u /* a panel refreshes 30 times a second or more */
 #define WANTS_CLOCK "Hz, like 40M, up to 1000M"
 #define WANTS_FLAG "0 or 1"
 
@@ -113,11 +114,58 @@ static int sim_part(target_config_t *config, const part_t *part, sim_error_t *er
     return panel_part(config, part, error);
 }
 
+static bool read_line(const char *text, target_line_t *line) {
+    const char *colon = strchr(text, ':');
+    const size_t length = colon ? (size_t)(colon - text) : 0;
+    char number[12];
+    uint32_t offset;
+    if (length == 0 || length >= sizeof line->chip) { return false; }
+    const size_t digits = strcspn(colon + 1, ":");
+    if (digits >= sizeof number) { return false; }
+    (void)snprintf(number, sizeof number, "%.*s", (int)digits, colon + 1);
+    const char *rest = colon + 1 + digits;
+    if (!read_number(number, 0, 65535, &offset) || (*rest && strcmp(rest, ":low") != 0)) { return false; }
+    (void)snprintf(line->chip, sizeof line->chip, "%.*s", (int)length, text);
+    line->offset = offset;
+    line->active_low = *rest != '\0';
+    return true;
+}
+
 static int name_panel(target_config_t *config, const char *name, sim_error_t *error) {
     config->module = sim_panel_find(name);
     if (!config->module) { return sim_fail(error, "%s: unknown panel '%s'; `tuile panels` lists them", config->text, name); }
     config->panel = *config->module->panel;
     return 0;
+}
+
+static int spi_part(target_config_t *config, const part_t *part, sim_error_t *error) {
+    static const char *const names[] = {"dc", "rst", "bl", "te"};
+    target_line_t *const lines[] = {&config->dc, &config->reset, &config->backlight, &config->tearing};
+    uint32_t number;
+    bool flag;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (strcmp(part->key, names[i]) != 0) { continue; }
+        if (!read_line(part->value, lines[i])) {
+            return refuse(config, part, "CHIP:LINE, like gpiochip0:25, or CHIP:LINE:low", error);
+        }
+        if (lines[i] == &config->tearing) { config->tearing_timeout_ms = TEARING_TIMEOUT_MS; }
+        return 1;
+    }
+    if (strcmp(part->key, "panel") == 0) { return name_panel(config, part->value, error) ? -1 : 1; }
+    if (strcmp(part->key, "mode") == 0) {
+        if (!read_number(part->value, 0, 3, &number)) { return refuse(config, part, "0 to 3", error); }
+        config->mode = (uint8_t)number;
+        return 1;
+    }
+    if (strcmp(part->key, "worker") == 0) {
+        if (!read_flag(part->value, &flag)) { return refuse(config, part, WANTS_FLAG, error); }
+        config->no_worker = !flag;
+        return 1;
+    }
+    if (!config->module) {
+        return sim_fail(error, "%s: %s: name the panel before what is to be changed of it", config->text, part->key);
+    }
+    return panel_part(config, part, error);
 }
 
 typedef int (*part_fn)(target_config_t *config, const part_t *part, sim_error_t *error);
@@ -136,6 +184,18 @@ static int read_parts(target_config_t *config, char *at, part_fn take, sim_error
         if (!taken) { return sim_fail(error, "%s: unknown part '%s'", config->text, at); }
         at = next;
     }
+    return 0;
+}
+
+static int parse_spi(target_config_t *config, const char *device, char *parts, sim_error_t *error) {
+    config->kind = TARGET_SPI;
+    if (device[0] != '/' || strlen(device) >= sizeof config->device) {
+        return sim_fail(error, "%s: '%s' is no device; wants one like /dev/spidev0.0", config->text, device);
+    }
+    (void)snprintf(config->device, sizeof config->device, "%s", device);
+    if (read_parts(config, parts, spi_part, error)) { return -1; }
+    if (!config->module) { return sim_fail(error, "%s: no panel=; `tuile panels` lists them", config->text); }
+    if (!config->dc.chip[0]) { return sim_fail(error, "%s: no dc=CHIP:LINE; a panel on SPI cannot do without", config->text); }
     return 0;
 }
 
@@ -159,6 +219,7 @@ int target_parse(target_config_t *config, const char *text, sim_error_t *error) 
         *rest++ = '\0';
         if (parts) { *parts++ = '\0'; }
         if (strcmp(copy, "sim") == 0) { return name_panel(config, rest, error) ? -1 : read_parts(config, parts, sim_part, error); }
+        if (strcmp(copy, "spi") == 0) { return parse_spi(config, rest, parts, error); }
     }
-    return sim_fail(error, "%s: unknown kind of display; wants sim:PANEL", config->text);
+    return sim_fail(error, "%s: unknown kind of display; wants sim:PANEL or spi:/dev/spidevB.C,...", config->text);
 }

@@ -63,6 +63,21 @@ static void what_is_wrong_in_a_text_is_named(void **state) {
         {"sim:ili9341,offset=0", "X:Y"},
         {"sim:ili9341,offset=0:0:0", "X:Y"},
         {"sim:ili9341,dc=4", "unknown part 'dc'"},
+        {"spi:/dev/spidev0.0", "no panel="},
+        {"spi:/dev/spidev0.0,panel=ili9341", "no dc=CHIP:LINE"},
+        {"spi:spidev0.0,panel=ili9341,dc=gpiochip0:1", "'spidev0.0' is no device"},
+        {"spi:,panel=ili9341,dc=gpiochip0:1", "'' is no device"},
+        {"spi:/dev/spidev0.0,panel=ili9342", "'ili9342'"},
+        {"spi:/dev/spidev0.0,panel=ili9341,dc=25", "dc=25: wants CHIP:LINE"},
+        {"spi:/dev/spidev0.0,panel=ili9341,dc=:25", "dc=:25"},
+        {"spi:/dev/spidev0.0,panel=ili9341,dc=gpiochip0:", "dc=gpiochip0:"},
+        {"spi:/dev/spidev0.0,panel=ili9341,dc=gpiochip0:x", "dc=gpiochip0:x"},
+        {"spi:/dev/spidev0.0,panel=ili9341,dc=gpiochip0:65536", "dc=gpiochip0:65536"},
+        {"spi:/dev/spidev0.0,panel=ili9341,dc=gpiochip0:1:high", "dc=gpiochip0:1:high"},
+        {"spi:/dev/spidev0.0,panel=ili9341,dc=gpiochip0:1,mode=4", "0 to 3"},
+        {"spi:/dev/spidev0.0,panel=ili9341,dc=gpiochip0:1,worker=2", "0 or 1"},
+        {"spi:/dev/spidev0.0,bgr=1,panel=ili9341,dc=gpiochip0:1", "name the panel before"},
+        {"spi:/dev/spidev0.0,panel=ili9341,dc=gpiochip0:1,mcu=rp2040", "unknown part 'mcu'"},
     };
     (void)state;
     for (size_t i = 0; i < CHECK_COUNT(cases); i++) {
@@ -71,6 +86,33 @@ static void what_is_wrong_in_a_text_is_named(void **state) {
         assert_int_equal(target_parse(&config, cases[i][0], &error), -1);
         if (!strstr(error.text, cases[i][1]) || !strstr(error.text, "--display ")) { fail_msg("%s: %s", cases[i][0], error.text); }
     }
+}
+
+static void a_text_names_a_panel_on_spidev_and_its_lines(void **state) {
+    target_config_t config;
+    sim_error_t error = {""};
+    (void)state;
+    assert_int_equal(target_parse(&config,
+                                  "spi:/dev/spidev1.0,panel=ili9341,dc=gpiochip0:25,rst=/dev/gpiochip4:7:low,clock=62.5M,mode=3,"
+                                  "te=gpiochip0:24,worker=0,bgr=0",
+                                  &error),
+                     0);
+    assert_int_equal(config.kind, TARGET_SPI);
+    assert_string_equal(config.device, "/dev/spidev1.0");
+    assert_string_equal(config.panel.name, "ili9341");
+    assert_int_equal(config.panel.rotation_base, 0);
+    assert_string_equal(config.dc.chip, "gpiochip0");
+    assert_int_equal(config.dc.offset, 25);
+    assert_false(config.dc.active_low);
+    assert_string_equal(config.reset.chip, "/dev/gpiochip4");
+    assert_int_equal(config.reset.offset, 7);
+    assert_true(config.reset.active_low);
+    assert_string_equal(config.backlight.chip, "");
+    assert_string_equal(config.tearing.chip, "gpiochip0");
+    assert_true(config.tearing_timeout_ms > 33); /* panels refresh at 30 Hz and more */
+    assert_int_equal(config.clock_hz, 62500000);
+    assert_int_equal(config.mode, 3);
+    assert_true(config.no_worker);
 }
 
 static void a_text_that_is_too_long_is_told_and_not_cut(void **state) {
@@ -345,6 +387,7 @@ int main(void) {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_text_names_a_panel_and_what_is_changed_of_it),
         cmocka_unit_test(what_is_wrong_in_a_text_is_named),
+        cmocka_unit_test(a_text_names_a_panel_on_spidev_and_its_lines),
         cmocka_unit_test(a_text_that_is_too_long_is_told_and_not_cut),
         cmocka_unit_test(controllers_make_the_nearest_clock_that_is_not_faster),
         cmocka_unit_test(a_frame_takes_the_bits_at_the_real_clock),
