@@ -77,7 +77,8 @@ typedef struct tuile_bus {
     uint32_t pins;            /* the lines that are there: TUILE_PIN_BIT(...) or-ed; others are tied to their active level */
 } tuile_bus_t;
 
-/* Chunks are cut at whole pixels and at even bytes, which for 3-byte pixels is every 6. */
+/* Chunks are cut at whole pixels and at even bytes, which for 3-byte pixels is every 6. A panel that is written page by page
+ * (SH1106) has one more at the end of each page. */
 #define TUILE_CHUNK_LEAST_BYTES 6u
 
 #endif

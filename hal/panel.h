@@ -61,7 +61,7 @@ typedef enum tuile_addressing {
 
 typedef struct tuile_panel {
     const char *name;                 /* as `--panel` takes it: "st7789-240x240" */
-    uint16_t ram_width, ram_height;   /* pixels the controller has memory for */
+    uint16_t ram_width, ram_height;   /* pixels the controller has memory for, or of these what it mirrors within (SSD13xx) */
     uint16_t view_width, view_height; /* pixels the glass shows, at rotation 0 */
     uint16_t offset_x, offset_y;      /* of the first shown pixel in the RAM, unmirrored */
     uint8_t round;                    /* 1: the glass is the circle in the view */

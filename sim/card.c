@@ -24,7 +24,12 @@ card_layout_t card_layout(const card_t *card, uint16_t width, uint16_t height) {
     } else {
         const int32_t left = l.inset_x, right = w - left;
         const int32_t top = l.inset_y + LINE_DOTS + GAP, bottom = h - top, third = (bottom - top) / 3;
-        l.arrow = (tuile_box_t){w / 2 - third / 2, l.inset_y, w / 2 + third / 2, top + third - LINE_DOTS - GAP};
+        const int32_t between = w / 2 - left - NAME_DOTS - GAP, half = third / 2 < between ? third / 2 : between;
+        if (between < LINE_DOTS / 2) { /* no room between the names: below them */
+            l.arrow = (tuile_box_t){left, top, right, top + third - GAP};
+        } else {
+            l.arrow = (tuile_box_t){w / 2 - half, l.inset_y, w / 2 + half, top + third - LINE_DOTS - GAP};
+        }
         l.bars = (tuile_box_t){left, top + third, right, top + 2 * third - GAP};
         l.ramp = (tuile_box_t){left, top + 2 * third, right, bottom};
     }

@@ -1,12 +1,29 @@
 #include "panels.h"
 
 #include "../hal/panels/ili9341.h"
+#include "../hal/panels/sh1106.h"
+#include "../hal/panels/ssd0323.h"
+#include "../hal/panels/ssd1306.h"
+#include "../hal/panels/ssd1322.h"
+#include "../hal/panels/ssd1351.h"
 #include "chips/ili9341.h"
+#include "chips/sh1106.h"
+#include "chips/ssd0323.h"
+#include "chips/ssd1306.h"
+#include "chips/ssd1322.h"
+#include "chips/ssd1351.h"
 
 #include <string.h>
 
 const sim_panel_t sim_panels[] = {
     {&tuile_ili9341, "ILI9341", sim_ili9341_create},
+    {&tuile_ssd1351, "SSD1351", sim_ssd1351_create},
+    {&tuile_ssd1351_128x96, "SSD1351", sim_ssd1351_128x96_create},
+    {&tuile_ssd1306_128x64, "SSD1306", sim_ssd1306_128x64_create},
+    {&tuile_ssd1306_128x32, "SSD1306", sim_ssd1306_128x32_create},
+    {&tuile_sh1106, "SH1106", sim_sh1106_create},
+    {&tuile_ssd1322, "SSD1322", sim_ssd1322_create},
+    {&tuile_ssd0323, "SSD0323", sim_ssd0323_create},
 };
 
 const size_t sim_panel_count = sizeof sim_panels / sizeof sim_panels[0];
