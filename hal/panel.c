@@ -64,9 +64,13 @@ static int set_pin(const tuile_panel_state_t *state, tuile_pin_t pin, uint8_t le
 
 /* ---- configuration ---------------------------------------------------------------------------------------------- */
 
-static const tuile_panel_format_t *find_format(const tuile_panel_t *panel, uint8_t wire) {
+static bool exchanges(const tuile_panel_t *panel, unsigned rotation) { return (panel->mode[rotation] & TUILE_EXCHANGE) != 0; }
+
+/* The name for quarter turns is for quarter turns only. */
+static const tuile_panel_format_t *find_format(const tuile_panel_t *panel, unsigned rotation, uint8_t wire) {
     for (unsigned i = 0; i < panel->format_count; i++) {
-        if (wire == TUILE_WIRE_DEFAULT || panel->formats[i].wire == wire || panel->formats[i].turned == wire) {
+        if (wire == TUILE_WIRE_DEFAULT || panel->formats[i].wire == wire ||
+            (panel->formats[i].turned == wire && exchanges(panel, rotation))) {
             return &panel->formats[i];
         }
     }
@@ -83,7 +87,7 @@ static int describe(void *context, const tuile_display_config_t *config, tuile_v
         (bus->max_chunk_bytes && bus->max_chunk_bytes < TUILE_CHUNK_LEAST_BYTES) || panel->format_count > TUILE_PANEL_FORMATS_MAX) {
         return TUILE_HAL_ARGUMENT;
     }
-    format = find_format(panel, config->wire);
+    format = find_format(panel, config->rotation, config->wire);
     if (!format || (config->tearing_timeout_ms && (!bus->tearing || !panel->tearing.size_bytes)) ||
         (config->identify && (!bus->read || !panel->id_command))) {
         return TUILE_HAL_UNSUPPORTED;
@@ -107,7 +111,7 @@ static int describe(void *context, const tuile_display_config_t *config, tuile_v
         .wire = format->wire,
         .dimmable = has_pin(state, TUILE_PIN_BACKLIGHT) || panel->brightness_command,
     };
-    if (panel->mode[config->rotation] & TUILE_EXCHANGE && format->turned) { view->wire = format->turned; }
+    if (exchanges(panel, config->rotation) && format->turned) { view->wire = format->turned; }
     /* A byte of two pixels belongs to one row of one window. */
     if (tuile_wire_bits(format->wire) % 8u == 4 && !format->turned && view->align_x % 2u) {
         view->align_x = (uint8_t)(2u * view->align_x);
@@ -205,7 +209,7 @@ static int set_range(const tuile_panel_state_t *state, uint8_t code, uint32_t fi
 static int window(void *context, uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
     tuile_panel_state_t *state = context;
     const tuile_panel_t *panel = state->panel;
-    const bool exchanged = (panel->mode[state->rotation] & TUILE_EXCHANGE) != 0;
+    const bool exchanged = exchanges(panel, state->rotation);
     int result = TUILE_HAL_OK;
 
     if (!state->in_frame && state->tearing_timeout_ms &&
