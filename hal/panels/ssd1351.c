@@ -9,7 +9,7 @@
 /* clang-format off */
 #define INIT(rows)                                                                                  \
     2, 0xFD, 0x12,             /* unlock */                                                         \
-    2, 0xFD, 0xB1,             /* and A2h, B1h, B3h, BBh, BEh, C1h, which a reset locks on their own */\
+    2, 0xFD, 0xB1,             /* and A2h, B1h, B3h, BBh, BEh, C1h, which a reset locks apart */   \
     1, 0xAE,                   /* off (10.1.10): without a reset line the memory might be seen */   \
     2, 0xB3, 0xF1,             /* clock: fastest, divided by 2 */                                   \
     2, 0xCA, (rows) - 1,       /* multiplex ratio */                                                \
@@ -50,7 +50,7 @@ static const uint8_t sleep_sequence[] = {1, 0xAE};
     .column_command = 0x15,     /* (10.1.1) */                                                                              \
     .row_command = 0x75,        /* (10.1.2) */                                                                              \
     .write_command = 0x5C,      /* (10.1.3) */                                                                              \
-    .brightness_command = 0xC7, /* sixteenths of the current, one at least */                                                      \
+    .brightness_command = 0xC7, /* sixteenths of the current, one at least */                                               \
     .brightness_most = 0x0F,                                                                                                \
     .invert_command = {0xA6, 0xA7}, /* (10.1.8) */                                                                          \
     .rotation_command = 0xA0,                                                                                               \
