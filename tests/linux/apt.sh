@@ -1,8 +1,8 @@
 #!/bin/sh
-# Debian packages for arm64, unpacked and not installed. They come from the sources that this machine's apt knows, by way of lists
+# Debian packages for arm64 (or for ARCHITECTURE), unpacked and not installed. They come from the sources that this machine's apt knows, by way of lists
 # of their own, so that nothing of the machine changes.
 # Usage: apt.sh STATE alone|whole FOLDER PACKAGE...   alone: these packages; whole: with all that they depend on
-# A package that only names the newest kernel (linux-image-arm64) stands for that one.
+# linux-image-arm64, which only names the newest kernel, stands for that one.
 set -eu
 mkdir -p "$1" "$3"
 state=$(cd "$1" && pwd)
@@ -11,8 +11,8 @@ folder=$(cd "$3" && pwd)
 shift 3
 mkdir -p "$state/lists/partial" "$state/cache/archives/partial"
 cat >"$state/apt.conf" <<END
-APT::Architecture "arm64";
-APT::Architectures { "arm64"; };
+APT::Architecture "${ARCHITECTURE:-arm64}";
+APT::Architectures { "${ARCHITECTURE:-arm64}"; };
 APT::Install-Recommends "false";
 APT::Sandbox::User "root";
 Acquire::Languages "none";
@@ -27,7 +27,7 @@ download() {
     names=
     for name in "$@"; do
         case $name in
-        linux-*-arm64) name=$(apt-cache depends "$name" | awk '$1 == "Depends:" && !found { found = $2 } END { print found }') ;;
+        linux-image-arm64) name=$(apt-cache depends "$name" | awk '$1 == "Depends:" && !found { found = $2 } END { print found }') ;;
         esac
         names="$names $name"
     done

@@ -6,7 +6,7 @@ GUEST := $(LINUX)/guest/board.dtb
 GUEST_MODULES := spi-gpio virtio_mmio 9pnet_virtio 9p vhci-hcd
 APT_ARM64 := sh tests/linux/apt.sh $(LINUX)/apt
 
-$(BUILD)/need/linux: ; $(call need,qemu-system-arm gcc-aarch64-linux-gnu device-tree-compiler cpio kmod,a Linux board in QEMU and a compiler for it)
+$(BUILD)/need/linux: ; $(call need,qemu-system-arm gcc-aarch64-linux-gnu device-tree-compiler cpio kmod libelf1,a Linux board in QEMU and a compiler for it)
 
 $(SYSROOT): tests/linux/apt.sh
 	@echo "Fetching arm64 libraries for the guest (unpacked under $(@D), not installed)"
@@ -23,7 +23,8 @@ $(LINUX)/busybox/bin/busybox:
 	@$(APT_ARM64) alone $(LINUX)/busybox busybox-static
 	@touch $@
 
-$(GUEST): $(LINUX)/kernel/done $(LINUX)/busybox/bin/busybox tests/linux/make_guest.sh tests/linux/init tests/linux/board.dts $(BUILD)/need/linux
+$(GUEST): $(LINUX)/kernel/done $(LINUX)/busybox/bin/busybox tests/linux/make_guest.sh tests/linux/modules.sh \
+          tests/linux/init tests/linux/board.dts $(BUILD)/need/linux
 	@sh tests/linux/make_guest.sh $(LINUX)/kernel $(LINUX)/busybox $(@D) $(GUEST_MODULES)
 
 # What is built for the guest: VARIANT=arm64.
@@ -36,16 +37,20 @@ $(CORE_OBJ) $(SIM_OBJ): | $(SYSROOT) $(BUILD)/need/linux
 endif
 
 # ---- programs ----
-$(OBJ)/linux/panel_trace: $(OBJ)/tests/linux/panel_trace.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
-$(OBJ)/linux/spi_picture: $(OBJ)/tests/linux/spi_picture.o $(SIM_LIB_OBJ) $(CORE_OBJ)
-$(OBJ)/linux/test_linux: $(OBJ)/tests/linux/test_linux.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
-$(OBJ)/linux/%:
+LINUX_LIB_OBJ := $(call objects,$(LINUX_LIB_SRC))
+LINUX_TOOLS := $(addprefix $(OBJ)/linux/,panel_trace spi_picture usb_device drm_pattern)
+LINUX_TESTS := $(addprefix $(OBJ)/linux/,test_linux test_gud_kernel)
+$(LINUX_TOOLS): $(OBJ)/linux/%: $(OBJ)/tests/linux/%.o $(LINUX_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
 	@mkdir -p $(@D)
-	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_LINUX) -o $@
-$(OBJ)/linux/panel_trace $(OBJ)/linux/test_linux: LIBS_LINUX := $(LIBS_TEST)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
+$(LINUX_TESTS): $(OBJ)/linux/%: $(OBJ)/tests/linux/%.o $(OBJ)/tests/linux/guest.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
+	@mkdir -p $(@D)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@
 
-.PHONY: test-linux linux-share
-linux-share: $(TUILE) $(OBJ)/linux/spi_picture # with VARIANT=arm64
+# Goals of VARIANT=arm64.
+LINUX_PROGRAMS := $(TUILE) $(OBJ)/linux/spi_picture $(OBJ)/linux/usb_device $(OBJ)/linux/drm_pattern
+.PHONY: linux-share test-linux test-gud-kernel
+linux-share: $(LINUX_PROGRAMS)
 	@mkdir -p $(LINUX)/share/bin $(LINUX)/share/models
 	@cp tests/models/room.* $(LINUX)/share/models/
 	@cp $^ $(LINUX)/share/bin/
@@ -56,3 +61,19 @@ test-linux: $(GUEST) $(TUILE) $(OBJ)/linux/panel_trace $(OBJ)/linux/test_linux #
 	@$(TUILE) render tests/models/room.obj --eye 0,1,3 --at 0,1,0 --shade gouraud --out $(LINUX)/share/sim.ppm
 	@sh tests/linux/run.sh $(LINUX) $(OBJ)/linux/panel_trace ili9341 tests/linux/run_linux 100
 	@BUILD=$(BUILD) $(OBJ)/linux/test_linux
+
+# The kernel's own driver of GUD displays against the model of one.
+$(LINUX)/kernel-source/done: $(LINUX)/kernel/done tests/linux/apt.sh
+	@echo "Fetching the kernel's headers and source (unpacked under $(@D), not installed)"
+	@version=$$(ls $(LINUX)/kernel/lib/modules) && $(APT_ARM64) alone $(@D) linux-headers-$$version linux-headers-$${version%-arm64}-common linux-source-6.1
+	@ARCHITECTURE=$$(dpkg --print-architecture) sh tests/linux/apt.sh $(LINUX)/apt-tools alone $(@D) linux-kbuild-6.1
+	@touch $@
+
+$(LINUX)/gud/gud.ko: $(LINUX)/kernel-source/done tests/linux/make_gud.sh $(BUILD)/need/linux
+	@sh tests/linux/make_gud.sh $(LINUX)/kernel $(<D) $(@D)
+
+test-gud-kernel: $(GUEST) $(LINUX)/gud/gud.ko $(OBJ)/linux/panel_trace $(OBJ)/linux/test_gud_kernel ## the kernel's own GUD driver draws on the model of such a display
+	@$(MAKE) --no-print-directory linux-share VARIANT=arm64
+	@sh tests/linux/modules.sh $(LINUX)/kernel $(LINUX)/share/modules $(LINUX)/gud/gud.ko
+	@sh tests/linux/run.sh $(LINUX) $(OBJ)/linux/panel_trace ili9341 tests/linux/run_gud_kernel 100
+	@BUILD=$(BUILD) $(OBJ)/linux/test_gud_kernel

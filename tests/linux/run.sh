@@ -10,6 +10,7 @@ start=$(date +%s)
 rm -rf "$share/out"
 mkdir -p "$share/out"
 cp "$4" "$share/run"
+cp "$here/steps" "$share/steps"
 rm -f "$linux/trace" # QEMU appends
 sh "$here/boot.sh" "$linux/guest" "$share" "$5" "$linux/console" "$linux/trace"
 echo "The guest ran for $(($(date +%s) - start)) s"
