@@ -23,17 +23,17 @@ SAME(TUILE_XRGB8888, TUILE_WIRE_XRGB8888);
 
 uint8_t tuile_stream_format(const tuile_display_t *display) { return (uint8_t)(display->wire - 1u); }
 
-/* A tile is whole pixels of its own, and so must be its window. */
-static bool aligned(uint16_t tile, uint16_t size, uint8_t align) {
-    return tile % align == 0 || (tile >= size && size % align == 0);
+/* A tile is whole pixels of its own, and so must be its window; ragged: but for the last tile. */
+static bool aligned(uint16_t tile, uint16_t size, uint8_t align, bool ragged) {
+    return tile % align == 0 ? ragged || tile >= size || size % align == 0 : tile >= size && (ragged || size % align == 0);
 }
 
 static int check(const tuile_config_t *config, const tuile_display_t *display) {
     if (config->format + 1u != display->wire || config->width != display->width || config->height != display->height) {
         return TUILE_ERROR_ARGUMENT;
     }
-    return aligned(config->tile_width, config->width, display->align_x) &&
-                   aligned(config->tile_height, config->height, display->align_y)
+    return aligned(config->tile_width, config->width, display->align_x, display->wire == TUILE_WIRE_RGB444) &&
+                   aligned(config->tile_height, config->height, display->align_y, false)
                ? TUILE_OK
                : TUILE_ERROR_ARGUMENT;
 }

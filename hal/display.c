@@ -69,18 +69,23 @@ int tuile_display_init(tuile_display_t *display, const tuile_display_config_t *c
     return start(display);
 }
 
+/* Pixels of 12 bits run on from row to row, so a window may end at an odd edge. */
+static bool ends_at_edge(const tuile_display_t *display, uint32_t x, uint32_t width) {
+    return display->wire == TUILE_WIRE_RGB444 && x + width == display->width;
+}
+
 int tuile_display_window(tuile_display_t *display, uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
     int result = ready(display);
 
     if (result) { return result; }
     if (width == 0 || height == 0 || x >= display->width || y >= display->height || width > display->width - x ||
-        height > display->height - y || x % display->align_x || width % display->align_x || y % display->align_y ||
-        height % display->align_y) {
+        height > display->height - y || x % display->align_x || (width % display->align_x && !ends_at_edge(display, x, width)) ||
+        y % display->align_y || height % display->align_y) {
         return TUILE_HAL_ARGUMENT;
     }
     display->left_bytes = 0;
     if ((result = settle(display, display->device->window(display->context, x, y, width, height)))) { return result; }
-    display->left_bytes = width * height * tuile_wire_bits(display->wire) / 8u; /* < 2^32 up to 134 million pixels */
+    display->left_bytes = (width * height * tuile_wire_bits(display->wire) + 7u) / 8u; /* < 2^32 up to 134 million pixels */
     return TUILE_HAL_OK;
 }
 
@@ -89,7 +94,8 @@ int tuile_display_write(tuile_display_t *display, const uint8_t *bytes, size_t s
 
     if (result) { return result; }
     if (display->left_bytes == 0 && size_bytes > 0) { return TUILE_HAL_STATE; }
-    if (!bytes || size_bytes > display->left_bytes || (uint32_t)size_bytes * 8u % tuile_wire_bits(display->wire)) {
+    if (!bytes || size_bytes > display->left_bytes ||
+        ((uint32_t)size_bytes * 8u % tuile_wire_bits(display->wire) && size_bytes != display->left_bytes)) {
         return TUILE_HAL_ARGUMENT;
     }
     if (size_bytes == 0) { return TUILE_HAL_OK; }

@@ -5,7 +5,8 @@
  * returns an error leaves no buffer with the display.
  *
  * BYTES. Pixels are in wire order already, in the format that display->wire names, row by row of the window without gaps; a buffer
- * has no alignment but a byte's. A window of pixels smaller than a byte is made of whole bytes (align_x, align_y).
+ * has no alignment but a byte's. A window of pixels smaller than a byte is made of whole bytes (align_x, align_y); but in RGB444,
+ * whose rows run on, one that ends at the right edge may be of any width, and a half byte fills up what is left of its last.
  *
  * ERRORS. TUILE_HAL_ARGUMENT, _STATE and _UNSUPPORTED are about the call: nothing was sent and nothing has changed. Every
  * other error is about the world: the first one sticks, every later call but tuile_display_resume and _close returns it and sends

@@ -9,6 +9,7 @@
 #include "../sim/bus.h"
 #include "../sim/chips/ili9341.h"
 #include "support/board.h"
+#include "support/wire_script.h"
 
 /* ---- the picture ------------------------------------------------------------------------------------------------ */
 
@@ -203,38 +204,6 @@ static void test_misuse_of_the_bus(void **state) {
 
 /* ---- illegal traffic -------------------------------------------------------------------------------------------- */
 
-/* A script for the wire: "2A:00 00" is a command with parameters, "+12 34" data, "@5" a pause of 5 ms, "R0" and "R1" the reset
- * line. A semicolon before all but the first of them. */
-static int play(board_t *board, const char *script) {
-    tuile_bus_t *bus = &board->bus.bus;
-    int result = 0;
-
-    while (*script && result == 0) {
-        uint8_t bytes[64];
-        size_t count = 0;
-        char kind = *script;
-        char *end;
-        if (kind == '@' || kind == 'R') {
-            unsigned value = (unsigned)strtoul(script + 1, &end, 10);
-            script = end;
-            result = kind == '@' ? bus->delay_ms(bus->context, value) : bus->pin(bus->context, TUILE_PIN_RESET, (uint8_t)value);
-        } else {
-            script += kind == '+';
-            do {
-                bytes[count++] = (uint8_t)strtoul(script, &end, 16);
-                script = end;
-            } while ((*script == ':' ||
-                      (*script == ' ' && script[1] && strchr("0123456789ABCDEF", script[1]) && (kind == '+' || count > 1))) &&
-                     *script++);
-            result = kind == '+' ? bus->data(bus->context, bytes, count) : bus->command(bus->context, bytes, 1, count);
-        }
-        while (*script == ' ' || *script == ';') {
-            script++;
-        }
-    }
-    return result;
-}
-
 typedef struct illegal {
     const char *name;
     const char *script;
@@ -304,7 +273,7 @@ static void test_illegal(void **state) {
 
     board_open(&board, &(sim_bus_config_t){.blocking = true});
     if (!c->raw) { assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0); }
-    result = play(&board, c->script);
+    result = wire_play(&board, c->script);
     if (!c->fault) {
         assert_string_equal(board.chip->fault.text, "");
         assert_int_equal(result, 0);
@@ -314,7 +283,7 @@ static void test_illegal(void **state) {
         assert_null(strchr(board.chip->fault.text, '\n'));
         assert_string_equal(board.bus.error.text, board.chip->fault.text);
         /* Sticky: nothing more is taken. */
-        assert_int_equal(play(&board, "00"), TUILE_HAL_PROTOCOL);
+        assert_int_equal(wire_play(&board, "00"), TUILE_HAL_PROTOCOL);
     }
     board_close(&board);
 }

@@ -43,15 +43,24 @@ static const sim_dcs_command_t commands[] = {
     {0xF7, 1, 1},   /* pump ratio */
 };
 
+/* Interface control (8.3.31): all at reset's values but WEMODE. */
+static const sim_dcs_rule_t rules[] = {{0xF6, 0, 0xFE, 0}, {0xF6, 1, 0xFF, 0}, {0xF6, 2, 0xFF, 0}};
+
 const sim_dcs_part_t sim_ili9341_part = {
     .name = "ILI9341",
     .width = 240,
     .height = 320,
     .commands = commands,
     .command_count = sizeof commands / sizeof commands[0],
+    .rules = rules,
+    .rule_count = sizeof rules / sizeof rules[0],
+    .formats = {{5, 16}, {6, 18}}, /* 8.2.33 */
+    .parallel = 1 << 0 | 1 << 5 | 1 << 6,
+    .format_at_reset = 0x66,
     .scan_command = 0xB6,
-    .interface_command = 0xF6,
-    .id4 = {0x00, 0x93, 0x41},  /* 8.3.23 */
+    .wrap_command = 0xF6,
+    .id_command = 0xD3, /* 8.3.23 */
+    .id = {0x00, 0x93, 0x41},
     .rated_clock_hz = 10000000, /* twc = 100 ns, 18.3.4 */
     .settle_ms = 5,             /* 8.2.2, 8.2.11, 8.2.12 */
     .sleep_ms = 120,            /* the same */

@@ -52,10 +52,14 @@ typedef struct sim_dcs {
     range_t columns, rows;
     uint8_t address_mode, pixel_format;
     bool awake, on, inverted, wraps;
-    uint8_t scan; /* GS and SS, as in the second parameter of scan_command */
+    uint8_t scan;   /* GS and SS, as in the second parameter of scan_command */
+    uint8_t expand; /* EPF: how 12 and 16 bits become 18 */
+    bool low_byte_first;
+    uint8_t open; /* locks */
 
     /* the wire */
     const sim_dcs_command_t *command; /* the one that parameters belong to, or NULL */
+    uint8_t code, previous_code;      /* the last command, and the one before it */
     uint8_t parameters[256];
     size_t parameter_count;
     bool writing;      /* data are pixels */
@@ -91,7 +95,9 @@ static void reset_registers(sim_dcs_t *dcs, uint64_t now_ns) {
     dcs->busy_with = SWRESET;
     dcs->awake = dcs->on = dcs->inverted = dcs->pointer_good = dcs->writing = dcs->chip.tearing = false;
     dcs->wraps = true;
-    dcs->scan = 0;
+    dcs->scan = dcs->open = dcs->code = dcs->previous_code = 0;
+    dcs->expand = dcs->part->ram_control_command ? 3 : 0;
+    dcs->low_byte_first = false;
     dcs->command = NULL;
     dcs->cut_count = 0;
 }
@@ -106,7 +112,7 @@ static void dcs_reset(sim_chip_t *chip, bool held, uint64_t now_ns) {
                    (unsigned long long)(now_ns - dcs->held_since_ns), dcs->part->reset_pulse_us);
         }
         dcs->address_mode = 0;
-        dcs->pixel_format = 0x66;
+        dcs->pixel_format = dcs->part->format_at_reset;
         reset_registers(dcs, now_ns);
     }
     dcs->held = held;
@@ -121,7 +127,14 @@ static const sim_dcs_command_t *find(const sim_dcs_command_t *commands, size_t c
     return NULL;
 }
 
-static unsigned pixel_bytes(const sim_dcs_t *dcs) { return (dcs->pixel_format & 7u) == 5 ? 2 : 3; }
+/* Bits of a pixel in this format; 0: the serial interface does not take it. */
+static unsigned format_bits(const sim_dcs_t *dcs, uint8_t format) {
+    for (size_t i = 0; i < sizeof dcs->part->formats / sizeof dcs->part->formats[0]; i++) {
+        const sim_dcs_format_t *known = &dcs->part->formats[i];
+        if (known->bits && known->code == (format & 7u)) { return known->bits; }
+    }
+    return 0;
+}
 
 static int check_range(sim_dcs_t *dcs, const char *what, range_t range, unsigned size) {
     if (range.first > range.last) {
@@ -145,8 +158,19 @@ static int check_window(sim_dcs_t *dcs) {
 }
 
 static int start_writing(sim_dcs_t *dcs, bool again) {
+    unsigned bits;
+
     if (!dcs->awake) { return REFUSE(dcs, "%s: memory write while asleep: nothing of it would be seen", dcs->chip.name); }
     if (check_window(dcs)) { return -1; }
+    bits = format_bits(dcs, dcs->pixel_format);
+    if (dcs->expand != 0 && bits != 18) {
+        return REFUSE(dcs, "%s: %u bits a pixel with EPF = %u (%02Xh): only 0, repeating the upper bits, is modelled",
+                      dcs->chip.name, bits, dcs->expand, dcs->part->ram_control_command);
+    }
+    if (dcs->low_byte_first && bits != 16) {
+        return REFUSE(dcs, "%s: low byte first (%02Xh) with %u bits a pixel; it is for 16", dcs->chip.name,
+                      dcs->part->ram_control_command, bits);
+    }
     if (again && !dcs->pointer_good) {
         return REFUSE(dcs, "%s: memory write continued (3Ch) without a memory write (2Ch) in this window", dcs->chip.name);
     }
@@ -196,25 +220,37 @@ static int software_reset(sim_dcs_t *dcs, uint64_t now_ns) {
 }
 
 static int set_pixel_format(sim_dcs_t *dcs, uint8_t format) {
-    unsigned serial = format & 7u, parallel = format >> 4 & 7u;
-
-    if ((serial != 5 && serial != 6) || (parallel != 0 && parallel != 5 && parallel != 6) || format & 0x88) {
-        return REFUSE(dcs, "%s: pixel format %02Xh is reserved", dcs->chip.name, format);
+    if (format & 0x88 || !(dcs->part->parallel >> (format >> 4) & 1u) || format_bits(dcs, format) == 0) {
+        return REFUSE(dcs, "%s: pixel format %02Xh is reserved, or not one of the serial interface's", dcs->chip.name, format);
     }
     dcs->pixel_format = format;
     return 0;
 }
 
 static int vendor(sim_dcs_t *dcs) {
+    const sim_dcs_part_t *part = dcs->part;
     const uint8_t *p = dcs->parameters;
     uint8_t code = dcs->command->code;
 
-    if (code == dcs->part->scan_command && dcs->parameter_count >= 2) { dcs->scan = p[1]; }
-    if (code == dcs->part->interface_command) {
-        if ((p[0] & 0xFE) != 0 || p[1] != 0 || p[2] != 0) {
-            return REFUSE(dcs, "%s: data format %02X %02X %02X (%02Xh) is not modelled", dcs->chip.name, p[0], p[1], p[2], code);
+    for (size_t i = 0; i < part->rule_count; i++) {
+        const sim_dcs_rule_t *rule = &part->rules[i];
+        if (rule->code == code && rule->index < dcs->parameter_count && (p[rule->index] & rule->mask) != rule->value) {
+            return REFUSE(dcs, "%s: command %02Xh with parameter %u = %02Xh is not modelled", dcs->chip.name, code, rule->index + 1,
+                          p[rule->index]);
         }
-        dcs->wraps = (p[0] & 1) != 0;
+    }
+    for (size_t i = 0; i < part->key_count; i++) {
+        const sim_dcs_key_t *key = &part->keys[i];
+        if (key->code == code && (dcs->command->most == 0 || key->parameter == p[0]) &&
+            (!key->after || key->after == dcs->previous_code)) {
+            dcs->open = (uint8_t)((dcs->open | key->opens) & ~key->closes);
+        }
+    }
+    if (code == part->scan_command && dcs->parameter_count >= 2) { dcs->scan = p[1]; }
+    if (code == part->wrap_command) { dcs->wraps = (p[0] & 1) != 0; }
+    if (code == part->ram_control_command) {
+        dcs->expand = p[1] >> 4 & 3u;
+        dcs->low_byte_first = (p[1] & 8) != 0;
     }
     return 0;
 }
@@ -262,14 +298,18 @@ static int execute(sim_dcs_t *dcs, uint64_t now_ns) {
 }
 
 static int check_previous(sim_dcs_t *dcs, uint8_t code) {
+    unsigned bits;
+
     if (code == SWRESET) { return 0; /* starting over is how one gets out of a transfer that broke off */ }
     if (dcs->command && dcs->parameter_count < dcs->command->least) {
         return REFUSE(dcs, "%s: command %02Xh takes %u parameters and got %zu", dcs->chip.name, dcs->command->code,
                       dcs->command->least, dcs->parameter_count);
     }
-    if (dcs->writing && dcs->cut_count) {
+    bits = format_bits(dcs, dcs->pixel_format);
+    /* Of 12-bit pixels an odd one is whole after two bytes: the half byte that fills up is nobody's. */
+    if (dcs->writing && dcs->cut_count && !(bits == 12 && dcs->cut_count == 2)) {
         return REFUSE(dcs, "%s: command %02Xh cuts a pixel after %zu of its %u bytes", dcs->chip.name, code, dcs->cut_count,
-                      pixel_bytes(dcs));
+                      bits == 18 ? 3 : 2);
     }
     return 0;
 }
@@ -294,6 +334,15 @@ static int begin_command(sim_dcs_t *dcs, uint8_t code, uint64_t now_ns) {
     }
     if (!command) { command = find(dcs->part->commands, dcs->part->command_count, code); }
     if (!command) { return REFUSE(dcs, "%s: unknown command %02Xh", dcs->chip.name, code); }
+    if (command->locked && (dcs->open & dcs->part->locks) != dcs->part->locks) {
+        return REFUSE(dcs, "%s: command %02Xh before its command set was enabled", dcs->chip.name, code);
+    }
+    if (code == NOP && dcs->part->no_nop) { return REFUSE(dcs, "%s: NOP disturbs this chip", dcs->chip.name); }
+    if (code == CASET && dcs->part->row_first && dcs->address_mode & MV && dcs->code != RASET) {
+        return REFUSE(dcs, "%s: columns (2Ah) not right after rows (2Bh), with MADCTL %02Xh", dcs->chip.name, dcs->address_mode);
+    }
+    dcs->previous_code = dcs->code;
+    dcs->code = code;
     if (code == SLPIN || code == SLPOUT) {
         dcs->ready_ns = now_ns + dcs->part->settle_ms * UINT64_C(1000000);
         dcs->busy_with = code;
@@ -330,26 +379,55 @@ static void store(sim_dcs_t *dcs, uint32_t pixel) {
     }
 }
 
+/* From so many bits a component to 18 in all, by repeating the upper bits. */
+static uint32_t widen(uint32_t red, unsigned red_bits, uint32_t green, unsigned green_bits, uint32_t blue, unsigned blue_bits) {
+    const uint32_t part[3] = {red, green, blue};
+    const unsigned bits[3] = {red_bits, green_bits, blue_bits};
+    uint32_t pixel = 0;
+
+    for (unsigned i = 0; i < 3; i++) {
+        uint32_t six = part[i] << (6 - bits[i]);
+        for (unsigned have = bits[i]; have < 6; have *= 2) {
+            six |= six >> have;
+        }
+        pixel = pixel << 6 | six;
+    }
+    return pixel;
+}
+
+static void store_12(sim_dcs_t *dcs, uint32_t rgb) { store(dcs, widen(rgb >> 8, 4, rgb >> 4 & 15u, 4, rgb & 15u, 4)); }
+
+static void store_3(sim_dcs_t *dcs, uint32_t rgb) { store(dcs, widen(rgb >> 2 & 1u, 1, rgb >> 1 & 1u, 1, rgb & 1u, 1)); }
+
 static void pixel_byte(sim_dcs_t *dcs, uint8_t byte) {
     const uint8_t *p = dcs->cut;
-    uint32_t red, green, blue;
+    uint32_t word;
 
     dcs->cut[dcs->cut_count++] = byte;
-    if (dcs->cut_count < pixel_bytes(dcs)) { return; }
-    dcs->cut_count = 0;
-    if (pixel_bytes(dcs) == 2) {
-        /* To 18 bits by repeating the highest bit of red and blue: EPF = 0. */
-        red = p[0] >> 3;
-        green = (p[0] & 7u) << 3 | p[1] >> 5;
-        blue = p[1] & 31u;
-        red = red << 1 | red >> 4;
-        blue = blue << 1 | blue >> 4;
-    } else {
-        red = p[0] >> 2;
-        green = p[1] >> 2;
-        blue = p[2] >> 2;
+    switch (format_bits(dcs, dcs->pixel_format)) {
+    case 3:
+        store_3(dcs, p[0] >> 3);
+        store_3(dcs, p[0]);
+        dcs->cut_count = 0;
+        break;
+    case 12:
+        if (dcs->cut_count == 2) { store_12(dcs, (uint32_t)p[0] << 4 | p[1] >> 4); }
+        if (dcs->cut_count < 3) { return; }
+        store_12(dcs, (p[1] & 15u) << 8 | p[2]);
+        dcs->cut_count = 0;
+        break;
+    case 16:
+        if (dcs->cut_count < 2) { return; }
+        word = dcs->low_byte_first ? (uint32_t)p[1] << 8 | p[0] : (uint32_t)p[0] << 8 | p[1];
+        store(dcs, widen(word >> 11, 5, word >> 5 & 63u, 6, word & 31u, 5));
+        dcs->cut_count = 0;
+        break;
+    default:
+        if (dcs->cut_count < 3) { return; }
+        store(dcs, widen(p[0] >> 2, 6, p[1] >> 2, 6, p[2] >> 2, 6));
+        dcs->cut_count = 0;
+        break;
     }
-    store(dcs, red << 12 | green << 6 | blue);
 }
 
 static int data_byte(sim_dcs_t *dcs, uint8_t byte, uint64_t now_ns) {
@@ -407,11 +485,11 @@ static int dcs_read(sim_chip_t *chip, uint8_t command, uint8_t *bytes, size_t si
         break;
     case 0x0B: answer[0] = dcs->address_mode; break;
     case 0x0C: answer[0] = dcs->pixel_format; break;
-    case 0xD3:
-        memcpy(answer, dcs->part->id4, 3);
+    default:
+        if (command != dcs->part->id_command) { return REFUSE(dcs, "%s: reading %02Xh is not modelled", chip->name, command); }
+        memcpy(answer, dcs->part->id, 3);
         length = 3;
         break;
-    default: return REFUSE(dcs, "%s: reading %02Xh is not modelled", chip->name, command);
     }
     if (size_bytes > length) {
         return REFUSE(dcs, "%s: %02Xh answers with %zu bytes, not %zu", chip->name, command, length, size_bytes);
@@ -424,22 +502,33 @@ static int dcs_read(sim_chip_t *chip, uint8_t command, uint8_t *bytes, size_t si
 
 static uint8_t eight_bits(uint32_t six) { return (uint8_t)(six << 2 | six >> 4); }
 
+/* Of a circle that touches the sides of width x height: is the centre of pixel (x, y) inside it or on it? */
+static bool in_circle(uint32_t width, uint32_t height, uint32_t x, uint32_t y) {
+    int64_t dx = 2 * (int64_t)x + 1 - width, dy = 2 * (int64_t)y + 1 - height;
+
+    return dx * dx + dy * dy <= (int64_t)width * width;
+}
+
 static int dcs_glass(const sim_chip_t *chip, sim_picture_t *out, sim_error_t *error) {
     const sim_dcs_t *dcs = (const sim_dcs_t *)chip;
-    uint32_t width = dcs->part->width, height = dcs->part->height;
+    const sim_dcs_module_t *module = &dcs->module;
+    uint32_t width = module->width ? module->width : dcs->part->width;
+    uint32_t height = module->height ? module->height : dcs->part->height;
     bool gs = (dcs->scan & 0x40) != 0, ss = (dcs->scan & 0x20) != 0;
-    bool columns_reversed = dcs->module.columns_reversed != ss, rows_reversed = dcs->module.rows_reversed != gs;
     /* SS reverses the three dots of a pixel along with the pixels. */
-    bool exchanged = (((dcs->address_mode & BGR) != 0) != dcs->module.bgr) != ss;
+    bool exchanged = (((dcs->address_mode & BGR) != 0) != module->bgr) != ss;
 
     if (sim_picture_create(out, width, height, error)) { return -1; }
     for (uint32_t y = 0; y < height; y++) {
         for (uint32_t x = 0; x < width; x++) {
-            uint32_t pixel = *cell(dcs, columns_reversed ? width - 1 - x : x, rows_reversed ? height - 1 - y : y);
+            uint32_t column = module->first_column + (module->columns_reversed ? width - 1 - x : x);
+            uint32_t row = module->first_row + (module->rows_reversed ? height - 1 - y : y);
+            uint32_t pixel = *cell(dcs, ss ? dcs->part->width - 1 - column : column, gs ? dcs->part->height - 1 - row : row);
             uint8_t *to = sim_picture_at(out, x, y);
-            pixel = dcs->inverted ? ~pixel : pixel;
-            /* A normally white panel without voltage lets the light through. */
-            pixel = dcs->awake && dcs->on ? pixel : 0x3FFFF;
+            if (module->round && !chip->uncut && !in_circle(width, height, x, y)) { continue; }
+            /* Without voltage a normally white panel lets the light through, and a normally black one does not. */
+            if (!dcs->awake || !dcs->on) { pixel = dcs->inverted ? 0 : 0x3FFFF; }
+            pixel = dcs->inverted != module->normally_black ? ~pixel : pixel;
             to[exchanged ? 2 : 0] = eight_bits(pixel >> 12 & 63u);
             to[1] = eight_bits(pixel >> 6 & 63u);
             to[exchanged ? 0 : 2] = eight_bits(pixel & 63u);
@@ -485,7 +574,7 @@ sim_chip_t *sim_dcs_create(const sim_dcs_part_t *part, const sim_dcs_module_t *m
     };
     dcs->part = part;
     dcs->module = *module;
-    dcs->pixel_format = 0x66;
+    dcs->pixel_format = part->format_at_reset;
     reset_registers(dcs, 0);
     return &dcs->chip;
 }

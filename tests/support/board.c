@@ -98,9 +98,8 @@ static void put(uint8_t *to, size_t place, field_t field) {
 }
 
 size_t board_encode(uint8_t *to, uint8_t wire, uint32_t picture_width, uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
-    const size_t bits = wire == TUILE_WIRE_RGB111 ? 4 : field_of(wire, 0).bits, size_bytes = bits * width * height / 8;
+    const size_t bits = wire == TUILE_WIRE_RGB111 ? 4 : field_of(wire, 0).bits, size_bytes = (bits * width * height + 7) / 8;
 
-    assert_int_equal(bits * width * height % 8, 0);
     memset(to, 0, size_bytes);
     for (uint32_t row = 0; row < height; row++) {
         for (uint32_t column = 0; column < width; column++) {

@@ -39,8 +39,7 @@ void board_seen(uint8_t rgb[3], uint8_t wire, uint32_t c);
 void board_check_pixel(const uint8_t *rgb, uint8_t wire, uint32_t c);
 
 /* A window of the test picture, which is picture_width wide, as it goes over the wire in any format but DEFAULT: written from
- * hal/wire.h alone. Returns the count of bytes; at most 4 a pixel. Windows of pixels smaller than a byte are made of whole bytes.
- */
+ * hal/wire.h alone. Returns the count of bytes; at most 4 a pixel; bits left in the last are 0. */
 size_t board_encode(uint8_t *to, uint8_t wire, uint32_t picture_width, uint32_t x, uint32_t y, uint32_t width, uint32_t height);
 
 /* Writes one window of the test picture, from two buffers by turns; at most 320 x 480 pixels. Returns the first error. */
