@@ -118,8 +118,31 @@ static void test_reset_and_light(void **state) {
     assert_string_equal(listener.log, "free held free seen "); /* low at power-up is no pulse */
     assert_int_equal(pins.resets, 1);
     assert_int_equal(pins.lights, 2);
+    assert_int_equal(pins_end(&pins, &error), -1);
+    assert_string_equal(error.text, "pins: the light is left on");
+    assert_int_equal(play(&pins, "b", &error), 0);
     assert_int_equal(pins_end(&pins, &error), 0);
     assert_string_equal(listener.log, "free held free seen seen ");
+}
+
+static int listener_begin(void *context, pins_t *pins, sim_error_t *error) {
+    note(context, "begin ");
+    pins->spi_mode = 3;
+    return pins->resets == 3 ? sim_fail(error, "three resets") : 0;
+}
+
+static void test_a_reset_may_be_another_panel(void **state) {
+    pins_t pins;
+    listener_t listener;
+    sim_error_t error = {""};
+
+    (void)state;
+    open_pins(&pins, &listener, 0);
+    pins.begin = listener_begin;
+    assert_int_equal(play(&pins, "S R rR K s kM K kK kK kK kK kK kK kK S rR", &error), 0);
+    assert_string_equal(listener.log, "free begin held free cFF begin held free ");
+    assert_int_equal(play(&pins, "r", &error), -1);
+    assert_string_equal(error.text, "three resets");
 }
 
 static void test_clock_rate_and_time(void **state) {
@@ -182,6 +205,7 @@ int main(void) {
         cmocka_unit_test(test_dc_tells_data_from_commands),
         cmocka_unit_test(test_clock_means_nothing_to_a_chip_that_is_not_selected),
         cmocka_unit_test(test_reset_and_light),
+        cmocka_unit_test(test_a_reset_may_be_another_panel),
         cmocka_unit_test(test_clock_rate_and_time),
         cmocka_unit_test(test_what_no_wire_shows_is_refused),
         cmocka_unit_test(test_lines_of_a_trace),

@@ -6,7 +6,7 @@
 #include "../support/command.h"
 
 const char *guest_path(const char *name, const char *end) {
-    static char path[4096];
+    static char path[512];
 
     (void)snprintf(path, sizeof path, "%s/linux/share/out/%s%s", getenv("BUILD"), name, end);
     return path;

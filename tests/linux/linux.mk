@@ -38,7 +38,7 @@ endif
 
 # ---- programs ----
 LINUX_LIB_OBJ := $(call objects,$(LINUX_LIB_SRC))
-LINUX_TOOLS := $(addprefix $(OBJ)/linux/,panel_trace spi_picture usb_device drm_pattern)
+LINUX_TOOLS := $(addprefix $(OBJ)/linux/,panel_trace usb_device drm_pattern)
 LINUX_TESTS := $(addprefix $(OBJ)/linux/,test_linux test_gud_kernel)
 $(LINUX_TOOLS): $(OBJ)/linux/%: $(OBJ)/tests/linux/%.o $(LINUX_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
 	@mkdir -p $(@D)
@@ -48,7 +48,7 @@ $(LINUX_TESTS): $(OBJ)/linux/%: $(OBJ)/tests/linux/%.o $(OBJ)/tests/linux/guest.
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@
 
 # Goals of VARIANT=arm64.
-LINUX_PROGRAMS := $(TUILE) $(OBJ)/linux/spi_picture $(OBJ)/linux/usb_device $(OBJ)/linux/drm_pattern
+LINUX_PROGRAMS := $(TUILE) $(OBJ)/linux/usb_device $(OBJ)/linux/drm_pattern
 .PHONY: linux-share test-linux test-gud-kernel
 linux-share: $(LINUX_PROGRAMS)
 	@mkdir -p $(LINUX)/share/bin $(LINUX)/share/models
@@ -56,11 +56,12 @@ linux-share: $(LINUX_PROGRAMS)
 	@cp $^ $(LINUX)/share/bin/
 	@sh tests/linux/libraries.sh $(dir $(SYSROOT)) $(LINUX)/share/lib $^
 
+# The panels that tests/linux/run_linux drives one after the other.
+LINUX_SESSIONS := st7735-80x160 ssd1306-128x64 ili9341 st7735-80x160 st7735-80x160
 test-linux: $(GUEST) $(TUILE) $(OBJ)/linux/panel_trace $(OBJ)/linux/test_linux ## a panel and USB displays under Debian's own kernel, in QEMU
 	@$(MAKE) --no-print-directory linux-share VARIANT=arm64
-	@$(TUILE) render tests/models/room.obj --eye 0,1,3 --at 0,1,0 --shade gouraud --out $(LINUX)/share/sim.ppm
-	@sh tests/linux/run.sh $(LINUX) $(OBJ)/linux/panel_trace ili9341 tests/linux/run_linux 100
-	@BUILD=$(BUILD) $(OBJ)/linux/test_linux
+	@sh tests/linux/run.sh $(LINUX) tests/linux/run_linux 250 $(OBJ)/linux/panel_trace $(LINUX_SESSIONS)
+	@TUILE=$(TUILE) BUILD=$(BUILD) $(OBJ)/linux/test_linux
 
 # The kernel's own driver of GUD displays against the model of one.
 $(LINUX)/kernel-source/done: $(LINUX)/kernel/done tests/linux/apt.sh
@@ -72,8 +73,8 @@ $(LINUX)/kernel-source/done: $(LINUX)/kernel/done tests/linux/apt.sh
 $(LINUX)/gud/gud.ko: $(LINUX)/kernel-source/done tests/linux/make_gud.sh $(BUILD)/need/linux
 	@sh tests/linux/make_gud.sh $(LINUX)/kernel $(<D) $(@D)
 
-test-gud-kernel: $(GUEST) $(LINUX)/gud/gud.ko $(OBJ)/linux/panel_trace $(OBJ)/linux/test_gud_kernel ## the kernel's own GUD driver draws on the model of such a display
+test-gud-kernel: $(GUEST) $(LINUX)/gud/gud.ko $(OBJ)/linux/test_gud_kernel ## the kernel's own GUD driver draws on the model of such a display
 	@$(MAKE) --no-print-directory linux-share VARIANT=arm64
 	@sh tests/linux/modules.sh $(LINUX)/kernel $(LINUX)/share/modules $(LINUX)/gud/gud.ko
-	@sh tests/linux/run.sh $(LINUX) $(OBJ)/linux/panel_trace ili9341 tests/linux/run_gud_kernel 100
+	@sh tests/linux/run.sh $(LINUX) tests/linux/run_gud_kernel 200
 	@BUILD=$(BUILD) $(OBJ)/linux/test_gud_kernel

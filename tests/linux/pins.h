@@ -17,6 +17,8 @@ enum { PINS_CLOCK, PINS_MOSI, PINS_SELECT, PINS_KEY, PINS_DC, PINS_RESET, PINS_B
 typedef struct pins {
     sim_chip_t *chip;
     uint8_t spi_mode; /* 0 ... 3 */
+    /* A pulse of the reset line begins; chip and spi_mode may be changed. 0, or -1 and error. NULL: nothing is to be done. */
+    int (*begin)(void *context, struct pins *pins, sim_error_t *error);
     /* What is seen at the moment the light goes out. 0, or -1 and error. */
     int (*seen)(void *context, const sim_chip_t *chip, sim_error_t *error);
     void *context;
@@ -37,7 +39,7 @@ int pins_change(pins_t *pins, unsigned line, bool level, uint64_t time_us, sim_e
 /* A line of the trace: "PID@SECONDS.MICROSECONDS:pl061_set_output NAME setting output LINE to LEVEL". 0, or -1 and error. */
 int pins_trace(pins_t *pins, const char *text, sim_error_t *error);
 
-/* At the end of the trace: what is still lit is seen, what is cut off is an error. */
+/* At the end of the trace: a byte that is cut off is an error, and so is a light that is still on. */
 int pins_end(pins_t *pins, sim_error_t *error);
 
 #endif

@@ -1,32 +1,102 @@
-/* What the guest did, after its run: programs built for arm64 under Debian's own kernel. */
+/* What tests/linux/run_linux did in the guest: programs built for arm64 under Debian's own kernel. */
 #include "../support/check.h"
 
+#include "../../sim/picture.h"
+#include "../support/command.h"
 #include "guest.h"
 
-static void assert_simulated(const char *name) {
-    char simulated[4096];
+/* What the panel of a session showed is what the simulator shows for the same arguments. */
+static void assert_session(unsigned session, const char *arguments, int rotation) {
+    char line[1024], name[32], expected_path[512];
+    sim_picture_t expected, glass;
+    sim_error_t error = {""};
+    command_result_t result;
 
-    (void)snprintf(simulated, sizeof simulated, "%s/linux/share/sim.ppm", getenv("BUILD"));
-    guest_assert_same_picture(guest_path(name, ".ppm"), simulated);
+    guest_assert_text("panels", ".err", "");
+    (void)snprintf(name, sizeof name, "expected-%u", session);
+    (void)snprintf(expected_path, sizeof expected_path, "%s", guest_path(name, ".ppm"));
+    (void)snprintf(line, sizeof line, "%s %s --out %s", getenv("TUILE"), arguments, expected_path);
+    command_shell(&result, line);
+    if (result.code != 0) { fail_msg("%s: %s", line, result.err); }
+    command_free(&result);
+    /* As the module lies. */
+    if (sim_picture_read(&expected, expected_path, &error) || sim_picture_turn(&expected, rotation / 90, &glass, &error) ||
+        sim_picture_write(&glass, expected_path, &error)) {
+        fail_msg("%s", error.text);
+    }
+    sim_picture_free(&expected);
+    sim_picture_free(&glass);
+    (void)snprintf(name, sizeof name, "panel-%u", session);
+    guest_assert_same_picture(guest_path(name, ".ppm"), expected_path);
 }
 
-static void test_arm64_draws_the_same_bits(void **state) {
-    (void)state;
-    guest_assert_code("render", 0);
-    assert_simulated("render");
+static void assert_failed_well(const char *step, const char *words, const char *other_words) {
+    char *out = guest_text(step, ".out"), *err = guest_text(step, ".err");
+    const command_result_t result = {
+        .code = (int)guest_number(step, ".code", ""), .out = out, .err = err, .out_bytes = strlen(out), .err_bytes = strlen(err)};
+
+    if (!command_failed_well(&result, words, other_words)) { fail_msg("%s ended with %d: %s", step, result.code, err); }
+    free(out);
+    free(err);
 }
 
-static void test_a_frame_on_the_pins_is_the_simulators(void **state) {
+#define ROOM "render tests/models/room.obj --eye 0,1,3 --at 0,1,0 --shade gouraud"
+
+static void test_a_frame_on_a_panel_with_offsets(void **state) {
     (void)state;
-    guest_assert_text("panel", ".err", "");
-    guest_assert_code("spi-picture", 0);
-    assert_simulated("lit-1");
+    guest_assert_code("st7735", 0);
+    assert_session(1, ROOM " --panel st7735-80x160", 0);
+}
+
+static void test_a_card_on_a_display_of_dots(void **state) {
+    (void)state;
+    guest_assert_code("ssd1306", 0);
+    assert_session(2, "card --panel ssd1306-128x64", 0);
+}
+
+static void test_a_frame_on_an_ili9341_held_sideways(void **state) {
+    (void)state;
+    guest_assert_code("ili9341", 0);
+    assert_session(3, ROOM " --rotate 90 --panel ili9341", 90);
+}
+
+static void test_what_is_not_there(void **state) {
+    (void)state;
+    assert_failed_well("no-chip", "gpiochip7", "No such file");
+    assert_failed_well("no-line", "gpiochip0 has no line 8", "0 to 7");
+    assert_failed_well("no-device", "/dev/spidev9.0", "No such file");
+}
+
+static void test_lines_in_use(void **state) {
+    (void)state;
+    assert_failed_well("kernels-line", "line 2 of gpiochip0", "in use by spi0 CS0");
+    assert_failed_well("lines-in-use", "line 4 of gpiochip0", "in use by tuile");
+}
+
+static void test_no_permission(void **state) {
+    (void)state;
+    assert_failed_well("no-permission", "/dev/spidev0.0: Permission denied", "60-tuile.rules");
+    assert_failed_well("no-permission-for-lines", "gpiochip0: Permission denied", "60-tuile.rules");
+}
+
+/* The line that ended it, and what the next program finds. */
+static void test_an_interrupt_leaves_the_panel_dark_and_the_lines_free(void **state) {
+    (void)state;
+    guest_assert_code("interrupted", 128 + 2);
+    guest_assert_text("panels", ".err", ""); /* among others: a light that is left on */
+    guest_assert_code("after-interrupt", 0);
+    assert_session(5, "card --panel st7735-80x160", 0);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_arm64_draws_the_same_bits),
-        cmocka_unit_test(test_a_frame_on_the_pins_is_the_simulators),
+        cmocka_unit_test(test_a_frame_on_a_panel_with_offsets),
+        cmocka_unit_test(test_a_card_on_a_display_of_dots),
+        cmocka_unit_test(test_a_frame_on_an_ili9341_held_sideways),
+        cmocka_unit_test(test_what_is_not_there),
+        cmocka_unit_test(test_lines_in_use),
+        cmocka_unit_test(test_no_permission),
+        cmocka_unit_test(test_an_interrupt_leaves_the_panel_dark_and_the_lines_free),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
