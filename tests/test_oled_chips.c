@@ -87,7 +87,8 @@ static void ssd1306_addressing(void **state) {
     check_page(&board, 21, 6, 0x04);
     check_page(&board, 21, 7, 0x08);
     /* Page addressing: column 7Eh of page 5, and after the last one back to where it began. */
-    assert_int_equal(play(&board, "20 02;B5;17;0E;+01 02 04"), 0);
+    assert_int_equal(play(&board, "20 02;B5;17;0E;+01 02 04;B4;03;12;+08"), 0);
+    check_page(&board, 35, 4, 0x08);
     check_page(&board, 126, 5, 0x04);
     check_page(&board, 127, 5, 0x02);
     board_check_clean(&board);
@@ -331,7 +332,8 @@ static void values_come_to_the_glass(void **state) {
         {"ssd0323", "15 00 00;75 00 00;+F0;84", {63, 63, 63}},    /* a quarter */
         {"ssd0323", "15 00 00;75 00 00;+F0;84;86", {255, 255, 255}},
         {"ssd1351", "15|00 00;75|00 00;5C;+F8 00", {255, 0, 0}},
-        {"ssd1351", "15|00 00;75|00 00;5C;+F8 00;A0|70", {0, 0, 255}}, /* colours swapped */
+        {"ssd1351", "15|00 00;75|00 00;5C;+F8 00;A0|70", {0, 0, 255}},                                  /* colours swapped */
+        {"ssd1351", "R0;@1;R1;@1;FD|B1;C1|C8 80 C8;A0|74;15|00 00;75|60 60;5C;+F8 00;AF", {255, 0, 0}}, /* A2h is 60h */
         {"ssd1351", "15|00 00;75|00 00;5C;+07 E0", {0, 255, 0}},
         {"ssd1351", "15|00 00;75|00 00;5C;+07 E0;A7", {255, 0, 255}},
         {"ssd1351", "15|00 00;75|00 00;5C;+00 00;A5", {255, 255, 255}},

@@ -130,6 +130,8 @@ static void a_window_is_told_in_the_panels_own_numbers(void **state) {
             assert_int_equal(tuile_display_present(&display), 0);
             assert_string_equal(recorder.log, windows[i].on);
             recorder_forget(&recorder);
+            assert_int_equal(tuile_display_present(&display), 0); /* it is on already */
+            assert_string_equal(recorder.log, "");
             assert_int_equal(tuile_display_sleep(&display), 0);
             assert_string_equal(recorder.log, windows[i].sleep);
         }

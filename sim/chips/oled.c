@@ -152,7 +152,6 @@ static void advance(sim_oled_t *oled) {
     if (oled->column++ < oled->columns.last) { return; }
     oled->column = oled->columns.first;
     if (oled->column_ends) { oled->placed &= (uint8_t)~SIM_OLED_COLUMNS; }
-    if (oled->page_stops) { return; }
     oled->row = oled->row == oled->rows.last ? oled->rows.first : (uint16_t)(oled->row + 1);
 }
 
@@ -231,15 +230,13 @@ void sim_oled_grey(const sim_oled_t *oled, uint32_t value, uint8_t *rgb) {
     memset(rgb, (int)(17u * value), 3);
 }
 
-/* Split: common k comes out of pin k / 2 of its half. A module that is wired for the other arrangement shows its lines out of
- * order. */
+/* Split: odd commons come out of the pins of the upper half. A module that is wired for the other arrangement shows its lines out
+ * of order; of those that are wired in sequence none has more lines than one half. */
 static unsigned common_of_line(const sim_oled_t *oled, unsigned line) {
-    const unsigned half = oled->part->height / 2u;
     const unsigned wired = oled->module.commons_reversed ? oled->module.height - 1u - line : line;
 
     if (oled->module.commons_split == oled->commons_split) { return wired; }
-    if (oled->module.commons_split) { return wired / 2u + (wired % 2u ? half : 0); }
-    return wired < half ? 2u * wired : 2u * (wired - half) + 1u;
+    return oled->module.commons_split ? wired / 2u + wired % 2u * (oled->part->height / 2u) : 2u * wired;
 }
 
 /* The row of the memory that a common shows, or -1 when it is not scanned. */

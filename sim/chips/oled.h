@@ -71,8 +71,7 @@ struct sim_oled {
     uint16_t column, row;           /* the pointer */
     uint8_t placed;                 /* COLUMNS, ROWS: told since the reset, and since what they mean was changed */
     bool vertical;                  /* the pointer runs along the rows' numbers first */
-    bool page_stops;                /* it stays in its row */
-    bool column_ends;               /* and stops after the last column: there is no going on without telling it where */
+    bool column_ends;               /* it stops after the last column: there is no going on without telling it where */
     bool segments_remapped, commons_remapped, nibbles_remapped, commons_split, colours_swapped;
     uint16_t multiplex; /* commons that are scanned */
     uint16_t offset, start_line;

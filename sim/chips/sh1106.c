@@ -27,7 +27,6 @@ static const sim_oled_command_t commands[] = {
 };
 
 static void defaults(sim_oled_t *oled) {
-    oled->page_stops = true;
     oled->column_ends = true; /* the counter stops at 83h */
     oled->contrast[0] = oled->contrast[1] = oled->contrast[2] = 0x80;
     oled->commons_split = true;

@@ -35,7 +35,6 @@ static const sim_oled_command_t commands[] = {
 
 static void defaults(sim_oled_t *oled) {
     oled->addressing = PAGE; /* 10.1.3 */
-    oled->page_stops = true;
     oled->contrast[0] = oled->contrast[1] = oled->contrast[2] = 0x7F; /* 10.1.7 */
     oled->commons_split = true;                                       /* 10.1.18 */
     oled->unpowered = true;
@@ -44,7 +43,6 @@ static void defaults(sim_oled_t *oled) {
 static int set_addressing(sim_oled_t *oled, uint8_t mode) {
     oled->addressing = mode;
     oled->vertical = mode == VERTICAL;
-    oled->page_stops = mode == PAGE;
     oled->placed = 0;
     return sim_oled_check(oled, "addressing mode", mode, HORIZONTAL, PAGE);
 }
