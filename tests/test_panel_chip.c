@@ -88,6 +88,37 @@ static void test_colours_seen(void **state) {
     board_close(&board);
 }
 
+/* B6h reverses the scan of gates (GS, 40h) and sources (SS, 20h). The module's row 0 is at the bottom without GS, its column 0 at
+ * the left without SS; its filter is blue first from S1 on, so that from S720 on it is red first, which wants MADCTL without BGR.
+ */
+static void test_scan_directions(void **state) {
+    static const struct {
+        const char *script;
+        uint32_t x, y;
+    } cases[] = {
+        {"B6:08 C2 27 ;36:08", 0, 0}, /* as the driver has it: C2h is GS and a normally white glass */
+        {"B6:08 82 27 ;36:08", 0, 319},
+        {"B6:08 E2 27 ;36:00", 239, 0},
+        {"B6:08 A2 27 ;36:00", 239, 319},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < CHECK_COUNT(cases); i++) {
+        board_t board;
+        sim_picture_t glass;
+        board_open(&board, &(sim_bus_config_t){.blocking = true});
+        assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+        assert_int_equal(tuile_display_present(&board.display), 0);
+        assert_int_equal(wire_play(&board, cases[i].script), 0);
+        assert_int_equal(wire_play(&board, "2A:00 00 00 00 ;2B:00 00 00 00 ;2C ;+F8 00"), 0);
+        board_check_clean(&board);
+        assert_int_equal(board.chip->glass(board.chip, &glass, NULL), 0);
+        assert_memory_equal(sim_picture_at(&glass, cases[i].x, cases[i].y), "\xFF\0\0", 3);
+        sim_picture_free(&glass);
+        board_close(&board);
+    }
+}
+
 /* ---- pixels past the end of the window, and continued ones ------------------------------------------------------ */
 
 static void test_write_wraps_in_window_and_continues(void **state) {
@@ -295,6 +326,7 @@ int main(void) {
         cmocka_unit_test(test_rotations_through_window_splits),
         cmocka_unit_test(test_memory_by_hand),
         cmocka_unit_test(test_colours_seen),
+        cmocka_unit_test(test_scan_directions),
         cmocka_unit_test(test_write_wraps_in_window_and_continues),
         cmocka_unit_test(test_write_stops_at_the_window),
         cmocka_unit_test(test_sleep_is_legal_traffic),

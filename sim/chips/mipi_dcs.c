@@ -220,7 +220,7 @@ static int software_reset(sim_dcs_t *dcs, uint64_t now_ns) {
 }
 
 static int set_pixel_format(sim_dcs_t *dcs, uint8_t format) {
-    if (format & 0x88 || !(dcs->part->parallel >> (format >> 4) & 1u) || format_bits(dcs, format) == 0) {
+    if (format & 8 || !(dcs->part->parallel >> (format >> 4) & 1u) || format_bits(dcs, format) == 0) {
         return REFUSE(dcs, "%s: pixel format %02Xh is reserved, or not one of the serial interface's", dcs->chip.name, format);
     }
     dcs->pixel_format = format;
