@@ -38,14 +38,33 @@ const sim_dcs_part_t sim_st7735_132x162_part = PART(132, 162);
 const sim_dcs_part_t sim_st7735_132x132_part = PART(132, 132);
 const sim_dcs_part_t sim_st7735_128x160_part = PART(128, 160);
 
-#define MODULE(name, part, ...)                                                                                                   \
-    sim_chip_t *sim_st7735_##name##_create(sim_error_t *error) {                                                                  \
-        return sim_dcs_create(&(part), &(sim_dcs_module_t){.columns_reversed = true, .rows_reversed = true, __VA_ARGS__}, error); \
-    }
+/* What a module is, but for the way in which all of them lie. */
+static sim_chip_t *create(const sim_dcs_part_t *part, sim_dcs_module_t module, sim_error_t *error) {
+    module.columns_reversed = module.rows_reversed = true;
+    return sim_dcs_create(part, &module, error);
+}
 
-MODULE(128x160, sim_st7735_128x160_part, .bgr = true)
-MODULE(128x160_green, sim_st7735_132x162_part, .bgr = true, .width = 128, .height = 160, .first_column = 2, .first_row = 1)
-MODULE(128x128, sim_st7735_132x132_part, .bgr = true, .width = 128, .height = 128, .first_column = 2, .first_row = 1)
-MODULE(80x160, sim_st7735_132x162_part, .bgr = true, .normally_black = true, .width = 80, .height = 160, .first_column = 26,
-       .first_row = 1)
-MODULE(80x160_0, sim_st7735_128x160_part, .width = 80, .height = 160, .first_column = 24)
+sim_chip_t *sim_st7735_128x160_create(sim_error_t *error) {
+    return create(&sim_st7735_128x160_part, (sim_dcs_module_t){.bgr = true}, error);
+}
+
+sim_chip_t *sim_st7735_128x160_green_create(sim_error_t *error) {
+    return create(&sim_st7735_132x162_part,
+                  (sim_dcs_module_t){.bgr = true, .first_column = 2, .first_row = 1, .width = 128, .height = 160}, error);
+}
+
+sim_chip_t *sim_st7735_128x128_create(sim_error_t *error) {
+    return create(&sim_st7735_132x132_part,
+                  (sim_dcs_module_t){.bgr = true, .first_column = 2, .first_row = 1, .width = 128, .height = 128}, error);
+}
+
+sim_chip_t *sim_st7735_80x160_create(sim_error_t *error) {
+    return create(
+        &sim_st7735_132x162_part,
+        (sim_dcs_module_t){.bgr = true, .normally_black = true, .first_column = 26, .first_row = 1, .width = 80, .height = 160},
+        error);
+}
+
+sim_chip_t *sim_st7735_80x160_0_create(sim_error_t *error) {
+    return create(&sim_st7735_128x160_part, (sim_dcs_module_t){.first_column = 24, .width = 80, .height = 160}, error);
+}

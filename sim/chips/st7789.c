@@ -70,14 +70,17 @@ const sim_dcs_part_t sim_st7789_part = {
     .reset_pulse_us = 10,
 };
 
-#define MODULE(name, ...)                                                                                         \
-    sim_chip_t *sim_st7789_##name##_create(sim_error_t *error) {                                                  \
-        return sim_dcs_create(&sim_st7789_part, &(sim_dcs_module_t){.normally_black = true, __VA_ARGS__}, error); \
-    }
+/* All of them IPS, red first, upright as the memory is. */
+static sim_chip_t *create(uint16_t width, uint16_t height, uint16_t first_column, uint16_t first_row, sim_error_t *error) {
+    const sim_dcs_module_t module = {
+        .normally_black = true, .first_column = first_column, .first_row = first_row, .width = width, .height = height};
 
-MODULE(240x320, .width = 240, .height = 320)
-MODULE(240x240, .width = 240, .height = 240)
-MODULE(135x240, .width = 135, .height = 240, .first_column = 52, .first_row = 40)
-MODULE(170x320, .width = 170, .height = 320, .first_column = 35)
-MODULE(172x320, .width = 172, .height = 320, .first_column = 34)
-MODULE(240x280, .width = 240, .height = 280, .first_row = 20)
+    return sim_dcs_create(&sim_st7789_part, &module, error);
+}
+
+sim_chip_t *sim_st7789_240x320_create(sim_error_t *error) { return create(240, 320, 0, 0, error); }
+sim_chip_t *sim_st7789_240x240_create(sim_error_t *error) { return create(240, 240, 0, 0, error); }
+sim_chip_t *sim_st7789_135x240_create(sim_error_t *error) { return create(135, 240, 52, 40, error); }
+sim_chip_t *sim_st7789_170x320_create(sim_error_t *error) { return create(170, 320, 35, 0, error); }
+sim_chip_t *sim_st7789_172x320_create(sim_error_t *error) { return create(172, 320, 34, 0, error); }
+sim_chip_t *sim_st7789_240x280_create(sim_error_t *error) { return create(240, 280, 0, 20, error); }
