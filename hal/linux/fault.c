@@ -20,6 +20,8 @@ int tuile_linux_code(int error, bool opening) {
     case EBUSY: return TUILE_HAL_BUSY;
     case EMSGSIZE: return TUILE_HAL_SIZE;
     case ETIMEDOUT: return TUILE_HAL_TIMEOUT;
+    case ENAMETOOLONG: return TUILE_HAL_ARGUMENT;
+    case EINVAL: return opening ? TUILE_HAL_UNSUPPORTED : TUILE_HAL_IO; /* a mode, or edges, that the controller has not */
     default: return TUILE_HAL_IO;
     }
 }

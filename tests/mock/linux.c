@@ -8,10 +8,13 @@
 #include <linux/gpio.h>
 #include <linux/spi/spidev.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
-static mock_linux_t *board; /* the delays of a bus know their port only */
+static mock_linux_t *board; /* the one that is open */
+static UMockdevTestbed *bed;
+static UMockdevIoctlBase *kernel;
 
 static void misuse(mock_linux_t *mock, const char *what) {
     if (!mock->misuse.text[0]) { (void)sim_fail(&mock->misuse, "%s", what); }
@@ -32,7 +35,11 @@ static void update(UMockdevIoctlData *data, size_t offset, const void *bytes, si
 
 /* ---- SPI -------------------------------------------------------------------------------------------------------- */
 
-static uint32_t bufsiz_of(const mock_linux_t *mock) { return mock->bufsiz ? mock->bufsiz : 4096; }
+static uint32_t bufsiz_of(const mock_linux_t *mock) {
+    const uint32_t told = mock->bufsiz ? mock->bufsiz : 4096;
+
+    return mock->real_bufsiz ? mock->real_bufsiz : told;
+}
 
 static void pass_wire(mock_linux_t *mock, uint32_t size_bytes, uint32_t clock_hz) {
     const uint64_t ns = (uint64_t)size_bytes * 8u * UINT64_C(1000000000) / (clock_hz ? clock_hz : 500000);
@@ -51,6 +58,10 @@ static void answer(mock_linux_t *mock, uint8_t command, uint8_t *bytes, size_t s
     const unsigned dummy = command == 0xD3 ? 8 : command == 0x04 || command == 0x09 ? 1 : 0;
 
     assert_true(size_bytes < sizeof plain);
+    if (mock->reply) {
+        memcpy(bytes, mock->reply, size_bytes);
+        return;
+    }
     if (mock->chip->read(mock->chip, command, plain, size_bytes - (dummy > 0), mock->now_ns)) {
         misuse(mock, mock->chip->fault.text);
     }
@@ -148,6 +159,17 @@ static void drive(mock_linux_t *mock, unsigned offset, bool value) {
     mock->level[offset] = level;
 }
 
+/* The file behind a descriptor; 0: none. */
+static uint64_t file_of(int fd) {
+    struct stat status;
+
+    return fstat(fd, &status) ? 0 : (uint64_t)status.st_dev << 40 ^ status.st_ino;
+}
+
+static bool is_held(const mock_linux_t *mock, uint32_t offset) {
+    return offset < MOCK_LINES && mock->requests[offset].file && file_of(mock->requests[offset].fd) == mock->requests[offset].file;
+}
+
 /* 0 or an errno. */
 static int take(mock_linux_t *mock, uint32_t offset, uint32_t count, bool edges, bool active_low, bool value, const char *consumer,
                 int *fd) {
@@ -157,8 +179,8 @@ static int take(mock_linux_t *mock, uint32_t offset, uint32_t count, bool edges,
 
     if (count != 1 || offset >= MOCK_LINES) { return EINVAL; }
     request = &mock->requests[offset];
-    if (offset == MOCK_TAKEN || (request->held && fcntl(request->fd, F_GETFD) >= 0)) { return EBUSY; }
-    *request = (mock_request_t){.held = true, .edges = edges, .active_low = active_low, .first_level = value, .fill = -1};
+    if (offset == MOCK_TAKEN || is_held(mock, offset)) { return EBUSY; }
+    *request = (mock_request_t){.edges = edges, .active_low = active_low, .first_level = value, .fill = -1};
     (void)snprintf(request->consumer, sizeof request->consumer, "%s", consumer);
     if (edges) {
         assert_int_equal(pipe(ends), 0);
@@ -171,6 +193,7 @@ static int take(mock_linux_t *mock, uint32_t offset, uint32_t count, bool edges,
         drive(mock, offset, value);
     }
     *fd = request->fd;
+    request->file = file_of(request->fd);
     return 0;
 }
 
@@ -184,6 +207,9 @@ static int chip_v1(mock_linux_t *mock, unsigned long request, UMockdevIoctlData 
         if (info.line_offset == MOCK_TAKEN) {
             info.flags = GPIOLINE_FLAG_KERNEL;
             (void)snprintf(info.consumer, sizeof info.consumer, "spi0 CS0");
+        } else if (is_held(mock, info.line_offset)) {
+            info.flags = GPIOLINE_FLAG_KERNEL | GPIOLINE_FLAG_IS_OUT;
+            (void)snprintf(info.consumer, sizeof info.consumer, "%s", mock->requests[info.line_offset].consumer);
         }
         update(data, 0, &info, sizeof info);
         result = info.line_offset < MOCK_LINES ? 0 : EINVAL;
@@ -214,6 +240,9 @@ static int chip_v2(mock_linux_t *mock, unsigned long request, UMockdevIoctlData 
         if (info.offset == MOCK_TAKEN) {
             info.flags = GPIO_V2_LINE_FLAG_USED;
             (void)snprintf(info.consumer, sizeof info.consumer, "spi0 CS0");
+        } else if (is_held(mock, info.offset)) {
+            info.flags = GPIO_V2_LINE_FLAG_USED;
+            (void)snprintf(info.consumer, sizeof info.consumer, "%s", mock->requests[info.offset].consumer);
         }
         info.flags |= GPIO_V2_LINE_FLAG_INPUT;
         update(data, 0, &info, sizeof info);
@@ -274,7 +303,7 @@ static int line(mock_linux_t *mock, unsigned offset, unsigned long request, UMoc
 /* ---- the kernel ------------------------------------------------------------------------------------------------- */
 
 static gboolean handle(UMockdevIoctlBase *base, UMockdevIoctlClient *client, gpointer context) {
-    mock_linux_t *mock = context;
+    mock_linux_t *mock = board;
     const char *node = umockdev_ioctl_client_get_devnode(client);
     const unsigned long request = umockdev_ioctl_client_get_request(client);
     UMockdevIoctlData *arg = umockdev_ioctl_client_get_arg(client);
@@ -284,13 +313,13 @@ static gboolean handle(UMockdevIoctlBase *base, UMockdevIoctlClient *client, gpo
     int error = 0;
     long result = 0;
 
-    (void)base;
+    (void)base, (void)context;
     if (++mock->calls == mock->fail_call) {
         cut = mock->cut && is_spi && _IOC_NR(request) == 0;
         error = cut ? 0 : mock->fail_errno ? mock->fail_errno : EIO;
         mock->gone = error == ESHUTDOWN;
     }
-    if (mock->gone) { error = is_spi ? ESHUTDOWN : ENODEV; }
+    if (mock->gone && !error) { error = is_spi ? ESHUTDOWN : ENODEV; }
     if (!error) {
         if (is_spi) {
             result = spi(mock, request, arg, cut, &error);
@@ -304,60 +333,86 @@ static gboolean handle(UMockdevIoctlBase *base, UMockdevIoctlClient *client, gpo
     return TRUE;
 }
 
-static void add(mock_linux_t *mock, const char *name, const char *subsystem, unsigned major, unsigned minor) {
+static void add(const char *name, const char *subsystem, unsigned major, unsigned minor) {
     char text[256], node[64];
 
     (void)snprintf(text, sizeof text,
                    "P: /devices/platform/board/%s\nN: %s\nE: DEVNAME=/dev/%s\nE: SUBSYSTEM=%s\nA: dev=%u:%u\\n\n", name, name, name,
                    subsystem, major, minor);
-    assert_true(umockdev_testbed_add_from_string(mock->bed, text, NULL));
+    assert_true(umockdev_testbed_add_from_string(bed, text, NULL));
     (void)snprintf(node, sizeof node, "/dev/%s", name);
-    assert_true(umockdev_testbed_attach_ioctl(mock->bed, node, mock->kernel, NULL));
+    assert_true(umockdev_testbed_attach_ioctl(bed, node, kernel, NULL));
 }
 
-static void put_bufsiz(const mock_linux_t *mock) {
-    char *sys = umockdev_testbed_get_sys_dir(mock->bed), *folder = g_strconcat(sys, "/module/spidev/parameters", NULL);
+static void make_nodes(void) {
+    static const unsigned lines[] = {MOCK_DC, MOCK_RESET, MOCK_BACKLIGHT};
+
+    bed = umockdev_testbed_new();
+    assert_true(umockdev_in_mock_environment());
+    kernel = umockdev_ioctl_base_new();
+    (void)g_signal_connect(kernel, "handle-ioctl", G_CALLBACK(handle), NULL);
+    add("spidev0.0", "spidev", 153, 0);
+    add("gpiochip0", "gpio", 254, 0);
+    for (size_t i = 0; i < CHECK_COUNT(lines); i++) {
+        char name[32];
+        (void)snprintf(name, sizeof name, "gpioline%u", lines[i]);
+        add(name, "mem", 253, lines[i]);
+    }
+}
+
+int mock_linux_end(void **state) {
+    (void)state;
+    g_clear_object(&bed);
+    g_clear_object(&kernel);
+    return 0;
+}
+
+static void put_bufsiz(uint32_t bufsiz) {
+    char *sys = umockdev_testbed_get_sys_dir(bed), *folder = g_strconcat(sys, "/module/spidev/parameters", NULL);
     char *path = g_strconcat(folder, "/bufsiz", NULL), text[16];
 
-    (void)snprintf(text, sizeof text, "%u\n", mock->bufsiz);
+    (void)snprintf(text, sizeof text, "%u\n", bufsiz);
+    (void)unlink(path);
     assert_int_equal(g_mkdir_with_parents(folder, 0755), 0);
-    assert_true(g_file_set_contents(path, text, -1, NULL));
+    if (bufsiz) { assert_true(g_file_set_contents(path, text, -1, NULL)); }
     g_free(path);
     g_free(folder);
     g_free(sys);
 }
 
+/* A node of the testbed is a pseudo-terminal. */
+static unsigned count_terminals(void) {
+    DIR *folder = opendir("/proc/self/fd");
+    unsigned count = 0;
+
+    assert_non_null(folder);
+    for (struct dirent *entry; (entry = readdir(folder)) != NULL;) {
+        char path[300], target[16] = "";
+        (void)snprintf(path, sizeof path, "/proc/self/fd/%s", entry->d_name);
+        count += readlink(path, target, sizeof target - 1) > 0 && strncmp(target, "/dev/pts/", 9) == 0;
+    }
+    (void)closedir(folder);
+    return count;
+}
+
 void mock_linux_open(mock_linux_t *mock, const char *panel) {
-    static const unsigned lines[] = {MOCK_DC, MOCK_RESET, MOCK_BACKLIGHT};
     sim_error_t error = {""};
 
     board = mock;
     assert_int_equal(sem_init(&mock->go, 0, 0), 0);
     mock->chip = sim_panel_find(panel)->create(&error);
     assert_non_null(mock->chip);
-    mock->bed = umockdev_testbed_new();
-    assert_true(umockdev_in_mock_environment());
-    mock->kernel = umockdev_ioctl_base_new();
-    (void)g_signal_connect(mock->kernel, "handle-ioctl", G_CALLBACK(handle), mock);
-    if (!mock->no_spi) { add(mock, "spidev0.0", "spidev", 153, 0); }
-    if (!mock->no_gpio) {
-        add(mock, "gpiochip0", "gpio", 254, 0);
-        for (size_t i = 0; i < CHECK_COUNT(lines); i++) {
-            char name[32];
-            (void)snprintf(name, sizeof name, "gpioline%u", lines[i]);
-            add(mock, name, "mem", 253, lines[i]);
-        }
-    }
-    if (mock->bufsiz) { put_bufsiz(mock); }
+    if (!bed) { make_nodes(); }
+    mock->bed = bed;
+    put_bufsiz(mock->bufsiz);
     mock->level[MOCK_RESET] = true; /* pulled up on the module */
+    mock->own_descriptors = count_terminals();
 }
 
 void mock_linux_close(mock_linux_t *mock) {
     for (unsigned i = 0; i < MOCK_LINES; i++) {
         if (mock->requests[i].edges) { (void)close(mock->requests[i].fill); }
     }
-    g_object_unref(mock->kernel);
-    g_object_unref(mock->bed);
     mock->chip->destroy(mock->chip);
     (void)sem_destroy(&mock->go);
     board = NULL;
@@ -386,30 +441,13 @@ int mock_linux_port(mock_linux_t *mock, tuile_linux_t *port, const tuile_linux_c
     return result;
 }
 
-unsigned mock_linux_descriptors(const mock_linux_t *mock) {
-    DIR *folder = opendir("/proc/self/fd");
-    char *root = umockdev_testbed_get_root_dir(mock->bed);
-    unsigned count = 0;
-
-    assert_non_null(folder);
-    for (struct dirent *entry; (entry = readdir(folder)) != NULL;) {
-        char path[300], target[300];
-        ssize_t length;
-        (void)snprintf(path, sizeof path, "/proc/self/fd/%s", entry->d_name);
-        if ((length = readlink(path, target, sizeof target - 1)) <= 0) { continue; }
-        target[length] = '\0';
-        if (strstr(target, root) && strstr(target, "/dev/")) { count++; }
-    }
-    (void)closedir(folder);
-    g_free(root);
-    return count;
-}
+unsigned mock_linux_descriptors(const mock_linux_t *mock) { return count_terminals() - mock->own_descriptors; }
 
 unsigned mock_linux_held(const mock_linux_t *mock) {
     unsigned count = 0;
 
     for (unsigned i = 0; i < MOCK_LINES; i++) {
-        if (mock->requests[i].held && fcntl(mock->requests[i].fd, F_GETFD) >= 0) { count++; }
+        count += is_held(mock, i);
     }
     return count;
 }

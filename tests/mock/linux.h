@@ -27,26 +27,26 @@ typedef struct mock_transfer {
 } mock_transfer_t;
 
 typedef struct mock_request {
-    bool held, edges, active_low, first_level;
-    int fd, fill; /* fill: where the test writes edges to */
+    bool edges, active_low, first_level;
+    int fd, fill;  /* fill: where the test writes edges to */
+    uint64_t file; /* that fd stands for, as its number may come again */
     char consumer[32];
 } mock_request_t;
 
 typedef struct mock_linux {
     /* Zero = default. Set before mock_linux_open. */
-    uint32_t bufsiz;  /* 0: the parameter cannot be read, and it is 4096 */
-    bool no_spi;      /* there is no spidev node */
-    bool no_gpio;     /* there is no chip */
-    bool wire_time;   /* a message takes as long as its bits do */
-    uint32_t late_us; /* and this much more */
+    uint32_t bufsiz;      /* 0: the parameter cannot be read, and it is 4096 */
+    uint32_t real_bufsiz; /* what messages are held against; 0: bufsiz */
+    const uint8_t *reply; /* bytes that a read gets, as they are on the wire; NULL: the chip's answer */
+    uint32_t mode;        /* SPI mode and flags; in the end as the port has set them */
+    bool wire_time;       /* a message takes as long as its bits do */
+    uint32_t late_us;     /* and this much more */
 
     UMockdevTestbed *bed;
-    UMockdevIoctlBase *kernel;
     sim_chip_t *chip;
     uint64_t now_ns; /* goes by the wire and by mock_linux_delay */
     bool level[MOCK_LINES];
     mock_request_t requests[MOCK_LINES];
-    uint32_t mode;
 
     /* A fault: ioctl number fail_call (1 = the first; counted from when the caller zeroes calls) answers fail_errno, or, where
      * cut, half of a message's bytes. ESHUTDOWN and ENODEV last. */
@@ -55,15 +55,20 @@ typedef struct mock_linux {
     bool cut, gone;
     bool hold; /* messages wait for `go` */
     sem_t go;
+    unsigned own_descriptors; /* of the testbed, which stands on pseudo-terminals */
 
     mock_transfer_t log[4096];
     unsigned transfers;
     sim_error_t misuse; /* the first thing that the kernel would have refused in another way than the caller can see */
 } mock_linux_t;
 
-/* panel: as in sim_panels. The mock must stay where it is. */
+/* panel: as in sim_panels. The mock must stay where it is. Nodes are made once and serve one mock after the other, since making
+ * them takes much longer than a frame. */
 void mock_linux_open(mock_linux_t *mock, const char *panel);
 void mock_linux_close(mock_linux_t *mock);
+
+/* Removes the nodes. After a group of tests, and where a test has changed them. state may be NULL. */
+int mock_linux_end(void **state);
 
 /* dc, reset and backlight on the lines above. */
 tuile_linux_config_t mock_linux_config(void);
