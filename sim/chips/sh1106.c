@@ -54,7 +54,7 @@ static const sim_oled_part_t part = {
     .store = sim_oled_mono_store,
     .colour = sim_oled_mono_colour,
     .rated_clock_hz = 4000000, /* a cycle of 250 ns */
-    .reset_pulse_us = 10,
+    .reset_pulse_us = 10,      /* unverified, and the next too */
     .settle_us = 2,
 };
 

@@ -99,7 +99,7 @@ static const sim_oled_part_t part = {
     .store = store,
     .colour = sim_oled_grey,
     .rated_clock_hz = 4000000, /* a cycle of 250 ns */
-    .reset_pulse_us = 3,
+    .reset_pulse_us = 3,       /* unverified: as its younger kin ask for */
     .settle_us = 3,
 };
 

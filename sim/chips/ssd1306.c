@@ -34,7 +34,7 @@ static const sim_oled_command_t commands[] = {
 };
 
 static void defaults(sim_oled_t *oled) {
-    oled->addressing = PAGE; /* 10.1.3 */
+    oled->addressing = PAGE;                                          /* 10.1.3 */
     oled->contrast[0] = oled->contrast[1] = oled->contrast[2] = 0x7F; /* 10.1.7 */
     oled->commons_split = true;                                       /* 10.1.18 */
     oled->unpowered = true;

@@ -106,7 +106,7 @@ static const sim_oled_part_t part = {
     .colour = sim_oled_grey,
     .rated_clock_hz = 10000000, /* a cycle of 100 ns, section 13 */
     .reset_pulse_us = 2,
-    .settle_us = 2,
+    .settle_us = 2, /* unverified */
 };
 
 sim_chip_t *sim_ssd1322_create(sim_error_t *error) {
