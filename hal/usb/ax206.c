@@ -236,7 +236,10 @@ int tuile_ax206_open(tuile_ax206_t *frame, const tuile_ax206_config_t *config) {
         frame->stage = malloc(2u * (size_t)frame->width * frame->height);
         if (!frame->stage) { result = tuile_usb_fail(&frame->usb, TUILE_HAL_IO, "out of memory for a frame"); }
     }
-    if (result) { tuile_ax206_close(frame); }
+    if (result) {
+        if (frame->bad && result != TUILE_HAL_GONE) { (void)recover(frame); } /* so that the next one finds it in order */
+        tuile_ax206_close(frame);
+    }
     return result;
 }
 

@@ -294,8 +294,8 @@ static int commit(sim_gud_t *gud) {
 static int enable(sim_gud_t *gud, uint8_t request, uint8_t value) {
     if (value > 1) { return REFUSE(gud, SIM_GUD_INVALID_PARAMETER, "request %02X sets %u, not 0 or 1", request, value); }
     if (request == SET_CONTROLLER_ENABLE) {
-        if (!value && gud->state.display) { return REFUSE(gud, SIM_GUD_PROTOCOL_ERROR, "the controller goes before the display"); }
         gud->state.controller = value;
+        if (!value) { gud->state.display = false; }
         return 0;
     }
     if (value && (!gud->state.controller || !gud->state.width)) {
@@ -306,6 +306,14 @@ static int enable(sim_gud_t *gud, uint8_t request, uint8_t value) {
 }
 
 /* ---- buffers ---------------------------------------------------------------------------------------------------- */
+
+/* A whole frame needs no announcement. */
+static void expect_frame(sim_gud_t *gud) {
+    gud->place = (place_t){.width = seen_width(gud), .height = seen_height(gud)};
+    gud->place.length = sim_gud_row_bytes(gud->state.format, gud->place.width) * gud->place.height;
+    gud->expected = gud->place.length;
+    gud->received = 0;
+}
 
 static int set_buffer(sim_gud_t *gud, const uint8_t *data) {
     const place_t place = {.x = sim_usb_u32(data),
@@ -347,15 +355,8 @@ static int set_buffer(sim_gud_t *gud, const uint8_t *data) {
     }
     gud->place = place;
     gud->expected = place.lz4 ? compressed : place.length;
+    if (gud->config.full_update) { expect_frame(gud); } /* it only says that a frame begins anew */
     return 0;
-}
-
-/* A whole frame needs no announcement. */
-static void expect_frame(sim_gud_t *gud) {
-    gud->place = (place_t){.width = seen_width(gud), .height = seen_height(gud)};
-    gud->place.length = sim_gud_row_bytes(gud->state.format, gud->place.width) * gud->place.height;
-    gud->expected = gud->place.length;
-    gud->received = 0;
 }
 
 static int finish(sim_gud_t *gud) {
@@ -452,10 +453,8 @@ static int control(sim_usb_t *usb, const uint8_t setup[8], uint8_t *data, size_t
     if ((!in && setup[0] != TYPE_OUT) || sim_usb_u16(setup + 4) != gud->config.interface) {
         return REFUSE(gud, SIM_GUD_PROTOCOL_ERROR, "request type %02X to interface %u", setup[0], sim_usb_u16(setup + 4));
     }
-    if (gud->status_due && setup[1] != GET_STATUS) {
-        gud->status_due = false;
-        sim_usb_refuse(usb, "request %02X comes before the status of the set was read", setup[1]);
-    }
+    if (gud->status_due && !in) { sim_usb_refuse(usb, "request %02X comes before the status of the set was read", setup[1]); }
+    gud->status_due = gud->status_due && setup[1] == GET_STATUS;
     if (in) { return get(gud, setup[1], value, data, length); }
     if (value && (setup[1] != SET_CONNECTOR_FORCE_DETECT || value >= gud->config.connectors)) {
         result = REFUSE(gud, SIM_GUD_INVALID_PARAMETER, "request %02X has a value, %u", setup[1], value);

@@ -68,7 +68,8 @@ int mock_usb_set_up(void **state);
 /* Makes the bed without a device in it, so that libusb sees none of the machine's. */
 void mock_usb_bed(void);
 
-/* File descriptors that this process has; what the bed's threads are about to close is waited for. */
+/* File descriptors that this process has. Those that the bed's threads are about to close are waited for until there are as many as
+ * expected; 0: not waited for. */
 unsigned mock_usb_descriptors(unsigned expected);
 
 #endif
