@@ -10,6 +10,7 @@ static const char usage[] =
     "\n"
     "  tuile render MODEL [options]       draw a model on a display, or on a simulated panel as pictures\n"
     "  tuile panels                       the panels that there are\n"
+    "  tuile displays                     what is attached, and why it cannot be used if so\n"
     "  tuile card [options]               a test card: which way is up, the order of the colours, the border\n"
     "  tuile mesh IN -o OUT.c|OUT.tuile   compile a model for flash\n"
     "  tuile font FONT.bdf -o OUT.c        compile a bitmap font for flash\n"
@@ -23,8 +24,8 @@ int main(int count, char **arguments) {
         const char *name;
         int (*run)(int count, char **arguments);
     } commands[] = {
-        {"render", command_render}, {"panels", command_panels}, {"card", command_card},         {"mesh", command_mesh},
-        {"font", command_font},     {"faces", command_faces},   {"coverage", command_coverage},
+        {"render", command_render}, {"panels", command_panels}, {"displays", command_displays}, {"card", command_card},
+        {"mesh", command_mesh},     {"font", command_font},     {"faces", command_faces},       {"coverage", command_coverage},
     };
     (void)signal(SIGPIPE, SIG_IGN); /* a closed pipe is reported as a write error */
     if (count < 2) {

@@ -36,11 +36,15 @@ typedef struct tuile_linux_chip {
     uint32_t lines;
 } tuile_linux_chip_t;
 
+typedef void (*tuile_linux_used_t)(void *context, uint32_t offset, const char *consumer);
+
 /* The version of libgpiod that is linked, "1.6.3"; its first digit is the API. */
 const char *tuile_linux_gpiod_version(void);
 
-/* What a chip tells of itself. chip as in tuile_linux_line_t. */
-int tuile_linux_chip(tuile_linux_chip_t *info, const char *chip, tuile_linux_fault_t *fault);
+/* What a chip tells of itself. chip as in tuile_linux_line_t. used, if it is not NULL, is called for each line that somebody has;
+ * consumer is "" where that one gave no name, and is used's for the time of the call. */
+int tuile_linux_chip(tuile_linux_chip_t *info, const char *chip, tuile_linux_used_t used, void *context,
+                     tuile_linux_fault_t *fault);
 
 /* TUILE_HAL_BUSY when another program or the kernel has the line; TUILE_HAL_NOT_FOUND without such a chip or line. After an error
  * nothing is held. The line's strings need not outlive the call, name has to outlive the request. */

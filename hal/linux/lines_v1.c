@@ -21,7 +21,8 @@ static struct gpiod_chip *open_chip(const char *chip, const char *name, tuile_li
     return opened;
 }
 
-int tuile_linux_chip(tuile_linux_chip_t *info, const char *chip, tuile_linux_fault_t *fault) {
+int tuile_linux_chip(tuile_linux_chip_t *info, const char *chip, tuile_linux_used_t used, void *context,
+                     tuile_linux_fault_t *fault) {
     int result = TUILE_HAL_OK;
     struct gpiod_chip *opened = open_chip(chip, "", fault, &result);
 
@@ -29,6 +30,10 @@ int tuile_linux_chip(tuile_linux_chip_t *info, const char *chip, tuile_linux_fau
     (void)snprintf(info->name, sizeof info->name, "%s", gpiod_chip_name(opened));
     (void)snprintf(info->label, sizeof info->label, "%s", gpiod_chip_label(opened));
     info->lines = gpiod_chip_num_lines(opened);
+    for (uint32_t i = 0; used && i < info->lines; i++) {
+        struct gpiod_line *line = gpiod_chip_get_line(opened, i);
+        if (line && gpiod_line_is_used(line)) { used(context, i, gpiod_line_consumer(line) ? gpiod_line_consumer(line) : ""); }
+    }
     gpiod_chip_close(opened);
     return TUILE_HAL_OK;
 }

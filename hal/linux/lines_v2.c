@@ -32,12 +32,19 @@ static int chip_info(tuile_linux_chip_t *info, struct gpiod_chip *chip, const ch
     return TUILE_HAL_OK;
 }
 
-int tuile_linux_chip(tuile_linux_chip_t *info, const char *chip, tuile_linux_fault_t *fault) {
+int tuile_linux_chip(tuile_linux_chip_t *info, const char *chip, tuile_linux_used_t used, void *context,
+                     tuile_linux_fault_t *fault) {
     int result = TUILE_HAL_OK;
     struct gpiod_chip *opened = open_chip(chip, "", fault, &result);
 
     if (!opened) { return result; }
     result = chip_info(info, opened, chip, fault);
+    for (uint32_t i = 0; !result && used && i < info->lines; i++) {
+        struct gpiod_line_info *line = gpiod_chip_get_line_info(opened, i);
+        const char *consumer = line ? gpiod_line_info_get_consumer(line) : NULL;
+        if (line && gpiod_line_info_is_used(line)) { used(context, i, consumer ? consumer : ""); }
+        gpiod_line_info_free(line);
+    }
     gpiod_chip_close(opened);
     return result;
 }

@@ -22,6 +22,17 @@ uint32_t tuile_linux_spi_bufsiz(void) {
     return bytes ? bytes : BUFSIZ_DEFAULT_BYTES;
 }
 
+int tuile_linux_spi_probe(const char *path, tuile_linux_fault_t *fault) {
+    const int fd = open(path, O_RDWR | O_CLOEXEC);
+    uint32_t flags = 0;
+    int result = TUILE_HAL_OK;
+
+    if (fd < 0) { return tuile_linux_fail(fault, errno, true, "%s", path); }
+    if (ioctl(fd, SPI_IOC_RD_MODE32, &flags) < 0) { result = tuile_linux_fail(fault, errno, true, "%s: mode", path); }
+    (void)close(fd);
+    return result;
+}
+
 int tuile_linux_spi_open(tuile_linux_spi_t *spi, const char *path, uint8_t mode, tuile_linux_fault_t *fault) {
     const uint32_t bufsiz = tuile_linux_spi_bufsiz();
     uint32_t flags = 0;

@@ -19,6 +19,10 @@ uint32_t tuile_linux_spi_bufsiz(void);
 /* mode: 0 ... 3. What else the device tree says of the device (chip select, three wires ...) stays; bits go out highest first.
  * After an error nothing is open. */
 int tuile_linux_spi_open(tuile_linux_spi_t *spi, const char *path, uint8_t mode, tuile_linux_fault_t *fault);
+
+/* Whether it could be opened; changes nothing. */
+int tuile_linux_spi_probe(const char *path, tuile_linux_fault_t *fault);
+
 void tuile_linux_spi_close(tuile_linux_spi_t *spi);
 
 /* Any number of bytes, cut into chunks; chip select is let go between them. Returns when they are out. clock_hz 0: the device
