@@ -102,6 +102,18 @@ static void test_dc_tells_data_from_commands(void **state) {
     assert_play(0, "S s KkKkKkKkKkKkKkKk D M KkKkKkKkKkKkKkKk d KkKkKkKkKkKkKkKk S", "c00 dFF cFF ");
 }
 
+static void test_counts(void **state) {
+    pins_t pins;
+    listener_t listener;
+    sim_error_t error = {""};
+
+    (void)state;
+    open_pins(&pins, &listener, 0);
+    assert_int_equal(play(&pins, "S s KkKkKkKkKkKkKkKk D KkKkKkKkKkKkKkKk KkKkKkKkKkKkKkKk S", &error), 0);
+    assert_int_equal(pins.commands, 1);
+    assert_int_equal(pins.data_bytes, 2);
+}
+
 static void test_clock_means_nothing_to_a_chip_that_is_not_selected(void **state) {
     (void)state;
     assert_play(0, "kK S KkKkKk MKkKkKkKkKkKkKkKkKkKk s KkKkKkKkKkKkKkKk S KkKk", "cFF ");
@@ -163,8 +175,8 @@ static void test_clock_rate_and_time(void **state) {
 
 static void test_what_no_wire_shows_is_refused(void **state) {
     (void)state;
-    assert_fault(0, "S s KkKkKk S", "after 3 bits");
-    assert_fault(0, "S s KkKkKk", "after 3 bits");
+    assert_fault(0, "S s KkKkKk S", "the chip select moved after 3 bits");
+    assert_fault(0, "S s KkKkKk", "the trace ends after 3 bits");
     assert_fault(0, "S s KkKkKk D Kk", "D/C changed at bit 3");
     assert_fault(0, "SK s", "the clock rests high; in mode 0 it rests low");
     assert_fault(3, "S s", "the clock rests low; in mode 3 it rests high");
@@ -203,6 +215,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_modes),
         cmocka_unit_test(test_dc_tells_data_from_commands),
+        cmocka_unit_test(test_counts),
         cmocka_unit_test(test_clock_means_nothing_to_a_chip_that_is_not_selected),
         cmocka_unit_test(test_reset_and_light),
         cmocka_unit_test(test_a_reset_may_be_another_panel),

@@ -308,6 +308,29 @@ static void test_a_length_beyond_reason(void **state) {
     assert_broken(*state, "2147483648 bytes");
 }
 
+static void test_a_direction_that_is_none(void **state) {
+    put_submit(*state, 1, 2, 1, 0, NULL);
+    assert_broken(*state, "direction 2");
+}
+
+static void test_an_endpoint_that_is_none(void **state) {
+    put_submit(*state, 1, 0, 16, 0, NULL);
+    assert_broken(*state, "endpoint 16");
+}
+
+static void test_more_transfers_than_can_be_held(void **state) {
+    fixture_t *fixture = *state;
+
+    fixture->usbip.hold = true;
+    for (unsigned i = 0; i <= USBIP_HELD_MAX; i++) {
+        put_submit(fixture, (uint8_t)i, 1, 1, 0, NULL);
+    }
+    for (unsigned i = 0; i < USBIP_HELD_MAX; i++) {
+        serve(fixture);
+    }
+    assert_broken(fixture, "more than 16");
+}
+
 static void test_isochronous_transfers(void **state) {
     static const uint8_t header[48] = {[3] = 1, [19] = 1, [35] = 1};
 
@@ -329,6 +352,9 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_data_that_never_come, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_an_unknown_message, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_a_length_beyond_reason, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_a_direction_that_is_none, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_an_endpoint_that_is_none, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_more_transfers_than_can_be_held, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_isochronous_transfers, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -35,10 +35,10 @@ static int take_bit(pins_t *pins, uint64_t time_us, sim_error_t *error) {
     return 0;
 }
 
-static int select_chip(pins_t *pins, bool level, sim_error_t *error) {
+static int select_chip(pins_t *pins, sim_error_t *error) {
     const bool was = pins->chip_seen;
 
-    pins->chip_seen = pins->chip_seen || level;
+    pins->chip_seen = true; /* the first change is to high */
     if (was && pins->bit_count > 0) {
         return sim_fail(error, "pins: the chip select moved after %u bits of a byte", pins->bit_count);
     }
@@ -58,7 +58,7 @@ int pins_change(pins_t *pins, unsigned line, bool level, uint64_t time_us, sim_e
     pins->levels = (uint8_t)((pins->levels & ~(1u << line)) | (unsigned)level << line);
     switch (line) {
     case PINS_CLOCK: return selected(pins) && level == sampled_high(pins) ? take_bit(pins, time_us, error) : 0;
-    case PINS_SELECT: return select_chip(pins, level, error);
+    case PINS_SELECT: return select_chip(pins, error);
     case PINS_RESET:
         pins->resets += !level;
         if (!level && pins->begin && pins->begin(pins->context, pins, error)) { return -1; }
@@ -76,7 +76,7 @@ int pins_trace(pins_t *pins, const char *text, sim_error_t *error) {
     uint64_t time_us;
     unsigned long number, level;
 
-    if (!at || !name || !line) { return sim_fail(error, "pins: not a line of the trace: %.80s", text); }
+    if (!at || !line) { return sim_fail(error, "pins: not a line of the trace: %.80s", text); }
     time_us = strtoull(at + 1, &end, 10) * 1000000;
     if (*end != '.' || end + 7 != name) { return sim_fail(error, "pins: no time in a line of the trace: %.80s", text); }
     time_us += strtoull(end + 1, NULL, 10);
