@@ -52,9 +52,10 @@ static void open_pins(pins_t *pins, listener_t *listener, uint8_t mode) {
     *pins = (pins_t){.chip = &listener->chip, .spi_mode = mode, .seen = listener_seen, .context = listener};
 }
 
-/* Changes as text, 10 us apart: K clock, M MOSI, S select, D D/C, R reset, B backlight; capital = high, small = low. */
+/* Changes as text, 10 us apart: K clock, M MOSI, S select, D D/C, R reset, B backlight,
+ * E end; capital = high, small = low. */
 static int play(pins_t *pins, const char *changes, sim_error_t *error) {
-    static const char names[] = "kmsxdrb";
+    static const char names[] = "kmsxdrbe";
     static uint64_t time_us = 1000000;
     int result = 0;
 
@@ -157,6 +158,20 @@ static void test_a_reset_may_be_another_panel(void **state) {
     assert_string_equal(error.text, "three resets");
 }
 
+static void test_the_end_of_a_program(void **state) {
+    pins_t pins;
+    listener_t listener;
+    sim_error_t error = {""};
+
+    (void)state;
+    open_pins(&pins, &listener, 0);
+    assert_int_equal(play(&pins, "S E B b e", &error), 0);
+    assert_int_equal(play(&pins, "B E", &error), -1);
+    assert_string_equal(error.text, "pins: the light is left on");
+    assert_int_equal(play(&pins, "b s Kk e", &error), -1);
+    assert_string_equal(error.text, "pins: it ends after 1 bits of a byte");
+}
+
 static void test_clock_rate_and_time(void **state) {
     pins_t pins;
     listener_t listener;
@@ -176,7 +191,7 @@ static void test_clock_rate_and_time(void **state) {
 static void test_what_no_wire_shows_is_refused(void **state) {
     (void)state;
     assert_fault(0, "S s KkKkKk S", "the chip select moved after 3 bits");
-    assert_fault(0, "S s KkKkKk", "the trace ends after 3 bits");
+    assert_fault(0, "S s KkKkKk", "it ends after 3 bits");
     assert_fault(0, "S s KkKkKk D Kk", "D/C changed at bit 3");
     assert_fault(0, "SK s", "the clock rests high; in mode 0 it rests low");
     assert_fault(3, "S s", "the clock rests low; in mode 3 it rests high");
@@ -219,6 +234,7 @@ int main(void) {
         cmocka_unit_test(test_clock_means_nothing_to_a_chip_that_is_not_selected),
         cmocka_unit_test(test_reset_and_light),
         cmocka_unit_test(test_a_reset_may_be_another_panel),
+        cmocka_unit_test(test_the_end_of_a_program),
         cmocka_unit_test(test_clock_rate_and_time),
         cmocka_unit_test(test_what_no_wire_shows_is_refused),
         cmocka_unit_test(test_lines_of_a_trace),

@@ -65,6 +65,7 @@ int pins_change(pins_t *pins, unsigned line, bool level, uint64_t time_us, sim_e
         pins->chip->reset(pins->chip, !level, now_ns);
         return pins->chip->fault.text[0] ? sim_fail(error, "%s", pins->chip->fault.text) : 0;
     case PINS_BACKLIGHT: pins->lights += level; return level ? 0 : pins->seen(pins->context, pins->chip, error);
+    case PINS_END: return pins_end(pins, error);
     default: return 0;
     }
 }
@@ -88,6 +89,6 @@ int pins_trace(pins_t *pins, const char *text, sim_error_t *error) {
 }
 
 int pins_end(pins_t *pins, sim_error_t *error) {
-    if (pins->bit_count > 0) { return sim_fail(error, "pins: the trace ends after %u bits of a byte", pins->bit_count); }
+    if (pins->bit_count > 0) { return sim_fail(error, "pins: it ends after %u bits of a byte", pins->bit_count); }
     return level_of(pins, PINS_BACKLIGHT) ? sim_fail(error, "pins: the light is left on") : 0;
 }

@@ -2,8 +2,9 @@
  * model of the panel's chip.
  *
  * The lines are those of board.dts. A bit is taken at the clock's sampling edge while the chip is selected, D/C with each bit. It
- * is an error when a byte is cut off, when D/C changes within one, and when the clock is not at rest as the chip select moves. At
- * power-up all lines are low; they count as nobody's until they change. */
+ * is an error when a byte is cut off, when D/C changes within one, and when the clock is not at rest as the chip select moves.
+ * At power-up all lines are low; they count as nobody's until they change. A change of the last line tells that a program has
+ * ended, which must have put its light out. */
 #ifndef TESTS_LINUX_PINS_H
 #define TESTS_LINUX_PINS_H
 
@@ -12,7 +13,7 @@
 
 #include "../../sim/chips/chip.h"
 
-enum { PINS_CLOCK, PINS_MOSI, PINS_SELECT, PINS_KEY, PINS_DC, PINS_RESET, PINS_BACKLIGHT, PINS_COUNT = 8 };
+enum { PINS_CLOCK, PINS_MOSI, PINS_SELECT, PINS_KEY, PINS_DC, PINS_RESET, PINS_BACKLIGHT, PINS_END, PINS_COUNT };
 
 typedef struct pins {
     sim_chip_t *chip;
@@ -39,7 +40,7 @@ int pins_change(pins_t *pins, unsigned line, bool level, uint64_t time_us, sim_e
 /* A line of the trace: "PID@SECONDS.MICROSECONDS:pl061_set_output NAME setting output LINE to LEVEL". 0, or -1 and error. */
 int pins_trace(pins_t *pins, const char *text, sim_error_t *error);
 
-/* At the end of the trace: a byte that is cut off is an error, and so is a light that is still on. */
+/* At the end of the trace, or of a program: a byte that is cut off is an error, and so is a light that is still on. */
 int pins_end(pins_t *pins, sim_error_t *error);
 
 #endif

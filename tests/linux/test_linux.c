@@ -5,29 +5,36 @@
 #include "../support/command.h"
 #include "guest.h"
 
-/* What the panel of a session showed is what the simulator shows for the same arguments. */
-static void assert_session(unsigned session, const char *arguments, int rotation) {
-    char line[1024], name[32], expected_path[512];
+/* A picture from the guest is what the simulator here draws for the same arguments; of several frames, the one that is named. */
+static void assert_simulated(const char *name, const char *arguments, int rotation, unsigned frame) {
+    char line[1024], expected_path[512];
     sim_picture_t expected, glass;
     sim_error_t error = {""};
     command_result_t result;
 
-    guest_assert_text("panels", ".err", "");
-    (void)snprintf(name, sizeof name, "expected-%u", session);
-    (void)snprintf(expected_path, sizeof expected_path, "%s", guest_path(name, ".ppm"));
-    (void)snprintf(line, sizeof line, "%s %s --out %s", getenv("TUILE"), arguments, expected_path);
+    (void)snprintf(expected_path, sizeof expected_path, "%s", guest_path(name, "-expected"));
+    (void)snprintf(line, sizeof line, "%s %s --out %s-%%d.ppm", getenv("TUILE"), arguments, expected_path);
     command_shell(&result, line);
     if (result.code != 0) { fail_msg("%s: %s", line, result.err); }
     command_free(&result);
+    (void)snprintf(line, sizeof line, "%s-%u.ppm", expected_path, frame);
     /* As the module lies. */
-    if (sim_picture_read(&expected, expected_path, &error) || sim_picture_turn(&expected, rotation / 90, &glass, &error) ||
-        sim_picture_write(&glass, expected_path, &error)) {
+    if (sim_picture_read(&expected, line, &error) || sim_picture_turn(&expected, rotation / 90, &glass, &error) ||
+        sim_picture_write(&glass, line, &error)) {
         fail_msg("%s", error.text);
     }
     sim_picture_free(&expected);
     sim_picture_free(&glass);
+    guest_assert_same_picture(guest_path(name, ".ppm"), line);
+}
+
+/* The same for what a panel on the pins showed last; nothing was wrong in any session. */
+static void assert_session(unsigned session, const char *arguments, int rotation) {
+    char name[32];
+
+    guest_assert_text("panels", ".err", "");
     (void)snprintf(name, sizeof name, "panel-%u", session);
-    guest_assert_same_picture(guest_path(name, ".ppm"), expected_path);
+    assert_simulated(name, arguments, rotation, 0);
 }
 
 static void assert_failed_well(const char *step, const char *words, const char *other_words) {
