@@ -67,6 +67,35 @@ static void test_a_frame_on_an_ili9341_held_sideways(void **state) {
     assert_session(3, ROOM " --rotate 90 --panel ili9341", 90);
 }
 
+#define RULES "hal/linux/60-tuile.rules lets users have it (make install-udev)\n"
+
+static void test_displays_tells_what_is_attached(void **state) {
+    (void)state;
+    guest_assert_code("displays", 0);
+    guest_assert_text("displays", ".err", "");
+    guest_assert_text("displays", ".out",
+                      "SPI, transfers of up to 4096 bytes (bufsiz)\n"
+                      "  /dev/spidev0.0: ready\n"
+                      "GPIO, through libgpiod 1.6.3\n"
+                      "  gpiochip0: 9030000.pl061, 8 lines\n"
+                      "    line 0 is in use by sck\n"
+                      "    line 1 is in use by mosi\n"
+                      "    line 2 is in use by spi0 CS0\n"
+                      "USB\n"
+                      "  001-002: 1d50:614d GUD: ready, up to 160x120 pixels\n");
+    guest_assert_text("displays-device", ".err", "");
+}
+
+static void test_displays_tells_what_users_may_not_have(void **state) {
+    (void)state;
+    guest_assert_code("displays-denied", 0);
+    guest_assert_text("displays-denied", ".out",
+                      "SPI, transfers of up to 4096 bytes (bufsiz)\n"
+                      "  /dev/spidev0.0: Permission denied; " RULES "GPIO, through libgpiod 1.6.3\n"
+                      "  gpiochip0: Permission denied; " RULES "USB\n"
+                      "  001-002: 1d50:614d GUD: no permission; " RULES);
+}
+
 static void test_what_is_not_there(void **state) {
     (void)state;
     assert_failed_well("no-chip", "gpiochip7", "No such file");
@@ -100,6 +129,8 @@ int main(void) {
         cmocka_unit_test(test_a_frame_on_a_panel_with_offsets),
         cmocka_unit_test(test_a_card_on_a_display_of_dots),
         cmocka_unit_test(test_a_frame_on_an_ili9341_held_sideways),
+        cmocka_unit_test(test_displays_tells_what_is_attached),
+        cmocka_unit_test(test_displays_tells_what_users_may_not_have),
         cmocka_unit_test(test_what_is_not_there),
         cmocka_unit_test(test_lines_in_use),
         cmocka_unit_test(test_no_permission),
