@@ -26,7 +26,7 @@ CFLAGS_HOST += -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-
 LDFLAGS += -fsanitize=address,undefined
 endif
 
-CORE_SRC := $(wildcard raster/*.c raster/*/*.c hal/*.c hal/panels/*.c hal/template/*.c) firmware/stream.c
+CORE_SRC := $(wildcard raster/*.c raster/*/*.c hal/*.c hal/panels/*.c hal/template/*.c firmware/*.c)
 HOSTED_SRC := $(wildcard hal/linux/*.c hal/usb/*.c) # the ports that have an operating system under them
 SIM_SRC := $(wildcard sim/*.c sim/*/*.c)
 REFERENCE_SRC := $(wildcard tests/reference/*.c)

@@ -38,31 +38,64 @@ static int check(const tuile_config_t *config, const tuile_display_t *display) {
                : TUILE_ERROR_ARGUMENT;
 }
 
-static int send(tuile_display_t *display, const tuile_tile_t *tile, unsigned buffers) {
+static int send_tile(void *context, tuile_display_t *display, const tuile_tile_t *tile) {
     int result = tuile_display_window(display, tile->x, tile->y, tile->width, tile->height);
 
+    (void)context;
     if (result == TUILE_HAL_OK) { result = tuile_display_write(display, tile->bytes, (size_t)tile->size_bytes); }
-    /* With one buffer the next tile overwrites this one, so there is nothing to overlap with. */
-    return result == TUILE_HAL_OK && buffers < 2 ? tuile_display_wait(display) : result;
+    return result ? result : 1;
 }
 
-int tuile_stream_frame(tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display, tuile_stats_t *stats) {
+/* The next tile that is wanted, as tuile_next; *index is its number, and then the one behind it. */
+static int next(tuile_t *renderer, const tuile_stream_hooks_t *hooks, uint32_t *index, tuile_tile_t *tile) {
+    const tuile_config_t *config = tuile_config(renderer);
+    const uint32_t columns = (config->width + config->tile_width - 1u) / config->tile_width;
+    const uint32_t rows = (config->height + config->tile_height - 1u) / config->tile_height;
+    const uint32_t from = *index;
+
+    for (; *index < columns * rows; ++*index) {
+        const uint32_t x = *index % columns * config->tile_width, y = *index / columns * config->tile_height;
+        const uint32_t right = config->width - x, below = config->height - y;
+        if (hooks->wanted(hooks->context, x, y, right < config->tile_width ? right : config->tile_width,
+                          below < config->tile_height ? below : config->tile_height)) {
+            const int result = *index == from ? TUILE_OK : tuile_seek(renderer, *index);
+            ++*index;
+            return result ? result : tuile_next(renderer, tile);
+        }
+    }
+    return 0;
+}
+
+int tuile_stream_tiles(tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display, const tuile_stream_hooks_t *hooks,
+                       tuile_stats_t *stats) {
     const tuile_config_t *config = tuile_config(renderer);
     tuile_tile_t tile;
+    uint32_t index = 0;
     int result, waited, ended;
 
     if (stats) { *stats = (tuile_stats_t){0}; }
     if ((result = tuile_display_wait(display)) || (result = check(config, display)) || (result = tuile_begin(renderer, scene))) {
         return result;
     }
-    while ((result = tuile_next(renderer, &tile)) > 0) {
-        if ((result = send(display, &tile, config->buffers)) < 0) { break; }
+    if (hooks->begun) { hooks->begun(hooks->context, scene); }
+    while ((result = hooks->wanted ? next(renderer, hooks, &index, &tile) : tuile_next(renderer, &tile)) > 0) {
+        result = (hooks->send ? hooks->send : send_tile)(hooks->context, display, &tile);
+        /* With one buffer the next tile overwrites this one, so there is nothing to overlap with. With two it overwrites the
+         * one before, and that may still be on the wire if this one was not sent, since nothing waited for it. */
+        if (result == 0 || (result > 0 && config->buffers < 2)) { result = tuile_display_wait(display); }
+        if (result < 0) { break; }
     }
     waited = tuile_display_wait(display); /* also after an error: the tile buffers must be the renderer's again */
     ended = tuile_end(renderer, stats);
     if (result < 0) { return result; }
     if (waited < 0) { return waited; }
     return ended < 0 ? ended : tuile_display_present(display);
+}
+
+int tuile_stream_frame(tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display, tuile_stats_t *stats) {
+    static const tuile_stream_hooks_t none;
+
+    return tuile_stream_tiles(renderer, scene, display, &none, stats);
 }
 
 const char *tuile_stream_error_text(int error) {

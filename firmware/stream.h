@@ -18,6 +18,22 @@ uint8_t tuile_stream_format(const tuile_display_t *display);
  * stats may be NULL; all zero when the frame was not begun. */
 int tuile_stream_frame(tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display, tuile_stats_t *stats);
 
+/* What a frame loop may do otherwise; NULL: as tuile_stream_frame does. */
+typedef struct tuile_stream_hooks {
+    void *context;
+    /* After tuile_begin has accepted the scene, before anything is drawn. */
+    void (*begun)(void *context, const tuile_scene_t *scene);
+    /* Is this tile to be drawn at all? */
+    bool (*wanted)(void *context, uint32_t x, uint32_t y, uint32_t width, uint32_t height);
+    /* Sends a tile, or not; its bytes are the hook's to change until they are on the wire. 1: it did; 0: it did not; or a
+     * tuile_hal_error_t. */
+    int (*send)(void *context, tuile_display_t *display, const tuile_tile_t *tile);
+} tuile_stream_hooks_t;
+
+/* tuile_stream_frame with hooks. */
+int tuile_stream_tiles(tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display, const tuile_stream_hooks_t *hooks,
+                       tuile_stats_t *stats);
+
 /* One line of English about either kind of error; never NULL. */
 const char *tuile_stream_error_text(int error);
 

@@ -510,9 +510,9 @@ int tuile_begin(tuile_t *renderer, const tuile_scene_t *scene);
 
 typedef struct tuile_tile {
     uint16_t x, y, width, height; /* rectangle in the window, cut to it */
-    const uint8_t *bytes;         /* width * height pixels, row by row without gaps, in wire order. GREY4, XRGB1111 and MONO_ROWS: rows
-                                     begin on whole bytes, MONO_PAGES: pages of 8 rows follow one another, turned formats: the same with
-                                     columns for rows; bits beyond the tile are 0 */
+    uint8_t *bytes;               /* width * height pixels, row by row without gaps, in wire order; the caller may change them. GREY4,
+                                     XRGB1111 and MONO_ROWS: rows begin on whole bytes, MONO_PAGES: pages of 8 rows follow one another,
+                                     turned formats: the same with columns for rows; bits beyond the tile are 0 */
     uint32_t size_bytes;
 } tuile_tile_t;
 

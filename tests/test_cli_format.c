@@ -10,7 +10,7 @@
 /* ---- the decoder, by hand ------------------------------------------------------------------------------------- */
 
 /* A row of `width` pixels, their bytes, and what is seen of each as 0xrrggbb. */
-static const struct {
+static struct {
     uint8_t format;
     uint16_t width;
     uint8_t bytes[8];
@@ -58,7 +58,7 @@ static void the_decoder_reads_what_is_on_the_wire(void **state) {
 }
 
 static void pages_are_read_downwards_from_bit_0(void **state) {
-    static const uint8_t bytes[] = {0x05, 0x80, 0x01, 0x00};
+    static uint8_t bytes[] = {0x05, 0x80, 0x01, 0x00};
     const tuile_tile_t tile = {.width = 2, .height = 9, .bytes = bytes, .size_bytes = 4};
     sim_picture_t picture = {0};
     (void)state;
@@ -72,7 +72,7 @@ static void pages_are_read_downwards_from_bit_0(void **state) {
 }
 
 static void turned_pages_are_read_to_the_right_from_bit_0(void **state) {
-    static const uint8_t bytes[] = {0x05, 0x80, 0x01, 0x00};
+    static uint8_t bytes[] = {0x05, 0x80, 0x01, 0x00};
     const tuile_tile_t tile = {.width = 9, .height = 2, .bytes = bytes, .size_bytes = 4};
     sim_picture_t picture = {0};
     (void)state;
@@ -86,7 +86,7 @@ static void turned_pages_are_read_to_the_right_from_bit_0(void **state) {
 }
 
 static void turned_greys_are_read_downwards_from_the_high_half(void **state) {
-    static const uint8_t bytes[] = {0x13, 0x50, 0x24, 0x60};
+    static uint8_t bytes[] = {0x13, 0x50, 0x24, 0x60};
     const tuile_tile_t tile = {.width = 2, .height = 3, .bytes = bytes, .size_bytes = 4};
     sim_picture_t picture = {0};
     (void)state;
@@ -99,7 +99,7 @@ static void turned_greys_are_read_downwards_from_the_high_half(void **state) {
 }
 
 static void rows_of_rgb111_are_one_string_and_of_xrgb1111_are_not(void **state) {
-    static const uint8_t bytes[] = {0x0a, 0x1c, 0x26, 0x00}; /* 001 010, 011 100, 100 110; rows of nibbles: 0 a 1, 2 6 0 */
+    static uint8_t bytes[] = {0x0a, 0x1c, 0x26, 0x00}; /* 001 010, 011 100, 100 110; rows of nibbles: 0 a 1, 2 6 0 */
     const tuile_tile_t tile = {.width = 3, .height = 2, .bytes = bytes, .size_bytes = 3},
                        whole = {.width = 3, .height = 2, .bytes = bytes, .size_bytes = 4};
     static const uint32_t string[] = {0x0000ff, 0x00ff00, 0x00ffff, 0xff0000, 0xff0000, 0xffff00},
@@ -138,7 +138,7 @@ static void a_tile_that_begins_within_a_byte_is_refused(void **state) {
         {TUILE_BGR888, 1, 1, 192, 0},
         {TUILE_XRGB8888, 1, 1, 256, 0},
     };
-    static const uint8_t bytes[256];
+    static uint8_t bytes[256];
     sim_picture_t picture = {0};
     (void)state;
     assert_int_equal(sim_picture_create(&picture, 16, 16, NULL), 0);

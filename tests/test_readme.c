@@ -1,10 +1,10 @@
-/* What README.md shows works: its commands run, its code compiles. */
+/* What README.md and the pages for newcomers show works: their commands run, their code compiles. */
 #include "support/check.h"
 #include "support/cli.h"
 
-/* Calls use with each block of README.md between ```kind and ```. */
-static unsigned readme_blocks(const char *kind, void (*use)(char *block)) {
-    char *text = command_read("README.md", NULL), *at = text, fence[16];
+/* Calls use with each block of a page between ```kind and ```. */
+static unsigned page_blocks(const char *page, const char *kind, void (*use)(char *block)) {
+    char *text = command_read(page, NULL), *at = text, fence[16];
     unsigned count = 0;
     if (!text) { skip(); }
     (void)snprintf(fence, sizeof fence, "\n```%s\n", kind);
@@ -51,7 +51,14 @@ static void run_lines(char *block) {
 static void the_commands_of_the_readme_work(void **state) {
     (void)state;
     commands_run = 0;
-    assert_true(readme_blocks("sh", run_lines) > 0);
+    assert_true(page_blocks("README.md", "sh", run_lines) > 0);
+    assert_true(commands_run > 0);
+}
+
+static void the_commands_of_troubleshooting_work(void **state) {
+    (void)state;
+    commands_run = 0;
+    assert_int_equal(page_blocks("docs/troubleshooting.md", "sh", run_lines), 2);
     assert_true(commands_run > 0);
 }
 
@@ -65,13 +72,20 @@ static void compile_block(char *block) {
 
 static void the_code_of_the_readme_compiles(void **state) {
     (void)state;
-    assert_true(readme_blocks("c", compile_block) > 0);
+    assert_true(page_blocks("README.md", "c", compile_block) > 0);
+}
+
+static void the_code_of_porting_compiles(void **state) {
+    (void)state;
+    assert_int_equal(page_blocks("docs/porting.md", "c", compile_block), 2);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_commands_of_the_readme_work),
         cmocka_unit_test(the_code_of_the_readme_compiles),
+        cmocka_unit_test(the_commands_of_troubleshooting_work),
+        cmocka_unit_test(the_code_of_porting_compiles),
     };
     return cmocka_run_group_tests_name("readme", tests, cli_set_up, cli_tear_down);
 }

@@ -225,6 +225,11 @@ static int fake_next(tuile_t *renderer, tuile_tile_t *tile) {
     return 1;
 }
 
+static int fake_seek(tuile_t *renderer, uint32_t tile_index) {
+    renderer->next = tile_index;
+    return 0;
+}
+
 static int fake_end(tuile_t *renderer, tuile_stats_t *stats) {
     assert_null(renderer->bus->flying); /* the block is the renderer's again */
     renderer->ended++;
@@ -239,17 +244,19 @@ static const char *fake_error_text(int error) { return error ? "renderer" : "no 
 /* The loop itself, over that renderer, whatever else is linked. */
 #define tuile_begin fake_begin
 #define tuile_next fake_next
+#define tuile_seek fake_seek
 #define tuile_end fake_end
 #define tuile_config fake_config
 #define tuile_error_text fake_error_text
 #define tuile_stream_frame stream_frame_under_test
+#define tuile_stream_tiles stream_tiles_under_test
+#define next stream_next
 #define tuile_stream_error_text stream_error_text_under_test
 #define tuile_stream_format stream_format_under_test
 #define check stream_check
-#define send stream_send
 #include "../firmware/stream.c"
 #undef check
-#undef send
+#undef next
 
 static const tuile_scene_t nothing;
 
