@@ -27,7 +27,7 @@ static const char usage[] =
     "  --rotate 0|90|180|270    how the panel is held\n"
     "  --clock HZ               clock of the bus for pixels, like 40M; 0 asks for the panel's usual one\n"
     "  --format F               format on the wire, of those that the display takes\n"
-    "  --out FILE.png           a picture of the simulated panel; with a number like %%d for several displays\n"
+    "  --out FILE.png           a picture of the simulated panel; with a number like %d for several displays\n"
     "  --hold SECONDS           how long real displays show it, until Ctrl-C by default; then they are left dark\n"
     "\n"
     "WHERE is one of\n";

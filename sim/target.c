@@ -22,6 +22,11 @@ static int open_sim(target_t *target, tuile_display_config_t *display, sim_error
     return 0;
 }
 
+/* What an open that failed came to; text: the driver's words. */
+static int refuse(const target_t *target, int result, const char *text, sim_error_t *error) {
+    return sim_fail(error, "%s: %s%s%s", target->config.text, tuile_hal_error_text(result), text[0] ? ": " : "", text);
+}
+
 static tuile_linux_line_t line_of(const target_line_t *line) {
     return (tuile_linux_line_t){line->chip[0] ? line->chip : NULL, line->offset, line->active_low};
 }
@@ -36,17 +41,44 @@ static int open_spi(target_t *target, tuile_display_config_t *display, sim_error
                                        .tearing = line_of(&config->tearing),
                                        .no_worker = config->no_worker};
     const int result = tuile_linux_open(&target->port, &port);
-    if (result) { return sim_fail(error, "%s: %s: %s", config->text, tuile_hal_error_text(result), target->port.fault.text); }
+    if (result) { return refuse(target, result, target->port.fault.text, error); }
     display->bus = &target->port.bus;
+    return 0;
+}
+
+static int open_gud(target_t *target, tuile_display_config_t *display, sim_error_t *error) {
+    const target_config_t *config = &target->config;
+    const tuile_gud_config_t gud = {.serial = config->serial[0] ? config->serial : NULL,
+                                    .width = config->mode_width,
+                                    .height = config->mode_height,
+                                    .no_compression = config->no_compression,
+                                    .timeout_ms = config->timeout_ms};
+    int result = config->wait_ms ? tuile_gud_wait_for(&gud, config->wait_ms) : TUILE_HAL_OK;
+    if (result == TUILE_HAL_OK) { result = tuile_gud_open(&target->gud, &gud); }
+    if (result) { return refuse(target, result, target->gud.error_text, error); }
+    display->device = &tuile_gud_device;
+    display->device_context = &target->gud;
+    return 0;
+}
+
+static int open_ax206(target_t *target, tuile_display_config_t *display, sim_error_t *error) {
+    const target_config_t *config = &target->config;
+    const tuile_ax206_config_t frame = {.serial = config->serial[0] ? config->serial : NULL, .timeout_ms = config->timeout_ms};
+    int result = config->wait_ms ? tuile_ax206_wait_for(&frame, config->wait_ms) : TUILE_HAL_OK;
+    if (result == TUILE_HAL_OK) { result = tuile_ax206_open(&target->ax206, &frame); }
+    if (result) { return refuse(target, result, target->ax206.error_text, error); }
+    display->device = &tuile_ax206_device;
+    display->device_context = &target->ax206;
     return 0;
 }
 
 static int start(target_t *target, const tuile_display_config_t *display, sim_error_t *error) {
     const int result = tuile_display_init(&target->display, display);
-    const char *detail = target_detail(target);
-    if (result == TUILE_HAL_OK) { return 0; }
-    return sim_fail(error, "%s: %s%s%s", target->config.text, tuile_hal_error_text(result), detail[0] ? ": " : "", detail);
+    return result ? refuse(target, result, target_detail(target), error) : 0;
 }
+
+static int (*const open_by_kind[])(target_t *target, tuile_display_config_t *display, sim_error_t *error) = {
+    [TARGET_SIM] = open_sim, [TARGET_SPI] = open_spi, [TARGET_GUD] = open_gud, [TARGET_AX206] = open_ax206};
 
 int target_open(target_t *target, const target_config_t *config, uint8_t rotation, uint8_t wire, sim_error_t *error) {
     *target = (target_t){.config = *config, .rotation = rotation};
@@ -60,7 +92,7 @@ int target_open(target_t *target, const target_config_t *config, uint8_t rotatio
                                       .pixel_clock_hz = config->clock_hz};
     if (!display.command_clock_hz) { display.command_clock_hz = config->panel.command_clock_hz; }
     if (!display.pixel_clock_hz) { display.pixel_clock_hz = config->panel.pixel_clock_hz; }
-    if ((config->kind == TARGET_SPI ? open_spi : open_sim)(target, &display, error) || start(target, &display, error)) {
+    if (open_by_kind[config->kind](target, &display, error) || start(target, &display, error)) {
         target_close(target);
         return -1;
     }
@@ -70,11 +102,15 @@ int target_open(target_t *target, const target_config_t *config, uint8_t rotatio
 void target_close(target_t *target) {
     (void)tuile_display_close(&target->display);
     tuile_linux_close(&target->port);
+    tuile_gud_close(&target->gud);
+    tuile_ax206_close(&target->ax206);
     if (target->chip) { target->chip->destroy(target->chip); }
     target->chip = NULL;
 }
 
 const char *target_detail(const target_t *target) {
+    if (target->config.kind == TARGET_GUD) { return target->gud.error_text; }
+    if (target->config.kind == TARGET_AX206) { return target->ax206.error_text; }
     if (!target->chip) { return target->port.fault.text; }
     return target->bus.error.text[0] ? target->bus.error.text : target->chip->fault.text;
 }

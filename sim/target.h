@@ -9,6 +9,8 @@
 
 #include "../hal/display.h"
 #include "../hal/linux/bus.h"
+#include "../hal/usb/ax206.h"
+#include "../hal/usb/gud.h"
 #include "bus.h"
 #include "error.h"
 #include "mcu.h"
@@ -17,6 +19,8 @@
 typedef enum target_kind {
     TARGET_SIM,
     TARGET_SPI,
+    TARGET_GUD,
+    TARGET_AX206,
 } target_kind_t;
 
 /* A GPIO line by name: "gpiochip0:25", or "gpiochip0:25:low". */
@@ -42,7 +46,11 @@ typedef struct target_config {
     uint32_t tearing_timeout_ms; /* 0 = frames do not wait */
     uint8_t mode;                /* SPI */
     bool no_worker;
-    uint8_t brightness; /* 0 = full */
+    char serial[64];                  /* USB; "" = any */
+    uint16_t mode_width, mode_height; /* GUD; 0 = as the device prefers */
+    bool no_compression;              /* GUD */
+    uint32_t timeout_ms, wait_ms;     /* USB: of a transfer, 0 = the driver's; for a display to be plugged in */
+    uint8_t brightness;               /* 0 = full */
     bool identify;
 } target_config_t;
 
@@ -63,7 +71,9 @@ typedef struct target {
     sim_chip_t *chip; /* SIM; else NULL */
     sim_bus_t bus;
     tuile_linux_t port; /* SPI */
-    uint64_t begun_ns;  /* of the frame: the time of the day */
+    tuile_gud_t gud;
+    tuile_ax206_t ax206;
+    uint64_t begun_ns; /* of the frame: the time of the day */
 } target_t;
 
 /* Opens it and starts the display; wire: tuile_wire_t. 0, or -1 and one line in error; then nothing is left open. */

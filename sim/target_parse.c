@@ -8,8 +8,15 @@
 const char target_usage[] =
     "  sim:PANEL[,clock=HZ][,mcu=NAME][,chunk=BYTES]\n"
     "                           a simulated panel; mcu: the clocks that rp2040, stm32f4, esp32 or atmega328p can make\n"
-    "  of a panel too:          bgr=0|1, invert=0|1, offset=X:Y where a module differs from its data; identify=1,\n"
-    "                           command-clock=HZ, brightness=1...255\n";
+    "  spi:/dev/spidevB.C,panel=PANEL,dc=CHIP:LINE[,rst=...][,bl=...][,te=...][,clock=HZ][,mode=0...3][,worker=0]\n"
+    "                           a panel on Linux's spidev, its lines by GPIO chip and number, like gpiochip0:25, or\n"
+    "                           gpiochip0:25:low where the line is active low\n"
+    "  usb:gud[,serial=S][,mode=WxH][,lz4=0|1]\n"
+    "                           a display on USB that speaks GUD\n"
+    "  usb:ax206[,serial=S]     a photo frame with an AX206\n"
+    "Panels take also bgr=0|1, invert=0|1, offset=X:Y where a module differs from its data, identify=1, command-clock=HZ;\n"
+    "displays on USB wait=SECONDS for one to be plugged in, timeout=MS of a transfer; all take brightness=1...255.\n"
+    "`tuile panels` lists panels, `tuile displays` what is attached.\n";
 
 /* One "key=value" of the text. */
 typedef struct part {
@@ -131,6 +138,44 @@ static bool read_line(const char *text, target_line_t *line) {
     return true;
 }
 
+static int usb_part(target_config_t *config, const part_t *part, sim_error_t *error) {
+    unsigned width, height;
+    uint32_t number;
+    bool flag;
+    char rest;
+    if (strcmp(part->key, "serial") == 0) {
+        if (strlen(part->value) == 0 || strlen(part->value) >= sizeof config->serial) {
+            return refuse(config, part, "1 to 63 characters, as `tuile displays` shows them", error);
+        }
+        (void)snprintf(config->serial, sizeof config->serial, "%s", part->value);
+        return 1;
+    }
+    if (strcmp(part->key, "wait") == 0) {
+        if (!read_number(part->value, 1, 1000000, &number)) { return refuse(config, part, "seconds, 1 to 1000000", error); }
+        config->wait_ms = 1000 * number;
+        return 1;
+    }
+    if (strcmp(part->key, "timeout") == 0) {
+        return read_number(part->value, 1, 1000000, &config->timeout_ms) ? 1 : refuse(config, part, "ms, 1 to 1000000", error);
+    }
+    if (strcmp(part->key, "brightness") == 0) { return panel_part(config, part, error); }
+    if (config->kind == TARGET_AX206) { return 0; }
+    if (strcmp(part->key, "lz4") == 0) {
+        if (!read_flag(part->value, &flag)) { return refuse(config, part, WANTS_FLAG, error); }
+        config->no_compression = !flag;
+        return 1;
+    }
+    if (strcmp(part->key, "mode") == 0) {
+        if (sscanf(part->value, "%4ux%4u%c", &width, &height, &rest) != 2 || width == 0 || height == 0) {
+            return refuse(config, part, "WIDTHxHEIGHT", error);
+        }
+        config->mode_width = (uint16_t)width;
+        config->mode_height = (uint16_t)height;
+        return 1;
+    }
+    return 0;
+}
+
 static int name_panel(target_config_t *config, const char *name, sim_error_t *error) {
     config->module = sim_panel_find(name);
     if (!config->module) { return sim_fail(error, "%s: unknown panel '%s'; `tuile panels` lists them", config->text, name); }
@@ -199,6 +244,14 @@ static int parse_spi(target_config_t *config, const char *device, char *parts, s
     return 0;
 }
 
+static int parse_usb(target_config_t *config, const char *kind, char *parts, sim_error_t *error) {
+    if (strcmp(kind, "gud") != 0 && strcmp(kind, "ax206") != 0) {
+        return sim_fail(error, "%s: unknown kind of USB display '%s'; wants usb:gud or usb:ax206", config->text, kind);
+    }
+    config->kind = kind[0] == 'g' ? TARGET_GUD : TARGET_AX206;
+    return read_parts(config, parts, usb_part, error);
+}
+
 int target_parse_panel(target_config_t *config, const char *name, sim_error_t *error) {
     *config = (target_config_t){.kind = TARGET_SIM};
     (void)snprintf(config->text, sizeof config->text, "--panel");
@@ -220,6 +273,8 @@ int target_parse(target_config_t *config, const char *text, sim_error_t *error) 
         if (parts) { *parts++ = '\0'; }
         if (strcmp(copy, "sim") == 0) { return name_panel(config, rest, error) ? -1 : read_parts(config, parts, sim_part, error); }
         if (strcmp(copy, "spi") == 0) { return parse_spi(config, rest, parts, error); }
+        if (strcmp(copy, "usb") == 0) { return parse_usb(config, rest, parts, error); }
     }
-    return sim_fail(error, "%s: unknown kind of display; wants sim:PANEL or spi:/dev/spidevB.C,...", config->text);
+    return sim_fail(error, "%s: unknown kind of display; wants sim:PANEL, spi:/dev/spidevB.C,..., usb:gud or usb:ax206",
+                    config->text);
 }

@@ -63,6 +63,18 @@ static void what_is_wrong_in_a_text_is_named(void **state) {
         {"sim:ili9341,offset=0", "X:Y"},
         {"sim:ili9341,offset=0:0:0", "X:Y"},
         {"sim:ili9341,dc=4", "unknown part 'dc'"},
+        {"usb:", "''"},
+        {"usb:tft", "'tft'"},
+        {"usb:gud,serial=", "1 to 63"},
+        {"usb:gud,mode=320", "WIDTHxHEIGHT"},
+        {"usb:gud,mode=0x240", "WIDTHxHEIGHT"},
+        {"usb:gud,lz4=2", "0 or 1"},
+        {"usb:gud,wait=0", "seconds"},
+        {"usb:gud,timeout=0", "ms"},
+        {"usb:gud,brightness=256", "1 to 255"},
+        {"usb:gud,clock=40M", "unknown part 'clock'"},
+        {"usb:ax206,lz4=1", "unknown part 'lz4'"},
+        {"usb:ax206,mode=320x240", "unknown part 'mode'"},
         {"spi:/dev/spidev0.0", "no panel="},
         {"spi:/dev/spidev0.0,panel=ili9341", "no dc=CHIP:LINE"},
         {"spi:spidev0.0,panel=ili9341,dc=gpiochip0:1", "'spidev0.0' is no device"},
@@ -113,6 +125,24 @@ static void a_text_names_a_panel_on_spidev_and_its_lines(void **state) {
     assert_int_equal(config.clock_hz, 62500000);
     assert_int_equal(config.mode, 3);
     assert_true(config.no_worker);
+}
+
+static void a_text_names_a_display_on_usb(void **state) {
+    target_config_t config;
+    sim_error_t error = {""};
+    (void)state;
+    assert_int_equal(target_parse(&config, "usb:gud,serial=A 1-b,mode=320x240,lz4=0,wait=2,timeout=50,brightness=9", &error), 0);
+    assert_int_equal(config.kind, TARGET_GUD);
+    assert_string_equal(config.serial, "A 1-b");
+    assert_int_equal(config.mode_width, 320);
+    assert_int_equal(config.mode_height, 240);
+    assert_true(config.no_compression);
+    assert_int_equal(config.wait_ms, 2000);
+    assert_int_equal(config.timeout_ms, 50);
+    assert_int_equal(config.brightness, 9);
+    assert_int_equal(target_parse(&config, "usb:ax206", &error), 0);
+    assert_int_equal(config.kind, TARGET_AX206);
+    assert_string_equal(config.serial, "");
 }
 
 static void a_text_that_is_too_long_is_told_and_not_cut(void **state) {
@@ -388,6 +418,7 @@ int main(void) {
         cmocka_unit_test(a_text_names_a_panel_and_what_is_changed_of_it),
         cmocka_unit_test(what_is_wrong_in_a_text_is_named),
         cmocka_unit_test(a_text_names_a_panel_on_spidev_and_its_lines),
+        cmocka_unit_test(a_text_names_a_display_on_usb),
         cmocka_unit_test(a_text_that_is_too_long_is_told_and_not_cut),
         cmocka_unit_test(controllers_make_the_nearest_clock_that_is_not_faster),
         cmocka_unit_test(a_frame_takes_the_bits_at_the_real_clock),
