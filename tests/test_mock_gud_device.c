@@ -207,6 +207,86 @@ static void test_sleep_and_resume(void **state) {
     gud_stand_finish(&stand);
 }
 
+/* ---- what goes over ---------------------------------------------------------------------------------------------- */
+
+/* A model behind a pen: it writes down requests that set something, and sizes of bulk transfers. */
+typedef struct pen {
+    sim_usb_t usb;
+    sim_usb_t *model;
+    char text[4096];
+    size_t count;
+} pen_t;
+
+static void pen_write(pen_t *pen, const char *what, unsigned number) {
+    pen->count += (size_t)snprintf(pen->text + pen->count, sizeof pen->text - pen->count, what, number);
+    assert_in_range(pen->count, 0, sizeof pen->text - 1);
+}
+
+static int pen_control(sim_usb_t *usb, const uint8_t setup[8], uint8_t *data, size_t length) {
+    pen_t *pen = (pen_t *)usb;
+
+    if (setup[0] == 0x41) {
+        pen_write(pen, "%02X:", setup[1]);
+        for (size_t i = 0; i < length; i++) {
+            pen_write(pen, " %02X", data[i]);
+        }
+        pen_write(pen, "\n", 0);
+    } else {
+        assert_int_equal(setup[0], 0xC1);
+    }
+    return pen->model->control(pen->model, setup, data, length);
+}
+
+static int pen_bulk(sim_usb_t *usb, uint8_t endpoint, uint8_t *data, size_t length) {
+    pen_t *pen = (pen_t *)usb;
+
+    pen_write(pen, "bulk %u\n", (unsigned)length);
+    return pen->model->bulk(pen->model, endpoint, data, length);
+}
+
+static void pen_reset(sim_usb_t *usb) { ((pen_t *)usb)->model->reset(((pen_t *)usb)->model); }
+
+/* 16 x 8, of 40 x 14 with blanks at 60 Hz: 33.6, cut to 33 kHz; backlight 50 of 100 (32h), no rotation (bit 0). Windows of 16 x 5
+ * and 16 x 3 pixels of 2 bytes: A0h and 60h. Then full light (64h), and off. */
+static void test_requests_in_the_kernels_order(void **state) {
+#define MODE "21 00 00 00 10 00 18 00 20 00 28 00 08 00 0A 00 0C 00 0E 00 00 04 00 00"
+#define BACKLIGHT(percent) " 0C 00 " percent " 00 00 00 00 00 00 00"
+#define ROTATION " 32 00 01 00 00 00 00 00 00 00"
+    static const char expected[] = "53:\n"
+                                   "61: " MODE " 40 00" BACKLIGHT("32") ROTATION
+        "\n"
+        "63: 01\n"
+        "62:\n"
+        "64: 00\n"
+        "60: 00 00 00 00 00 00 00 00 10 00 00 00 05 00 00 00 A0 00 00 00 00 00 00 00 00\n"
+        "bulk 160\n"
+        "60: 00 00 00 00 05 00 00 00 10 00 00 00 03 00 00 00 60 00 00 00 00 00 00 00 00\n"
+        "bulk 96\n"
+        "64: 01\n"
+        "61: " MODE " 40 00" BACKLIGHT("64") ROTATION "\n"
+                                                      "62:\n"
+                                                      "64: 00\n"
+                                                      "63: 00\n";
+    static pen_t pen;
+    gud_stand_t stand = {0};
+
+    (void)state;
+    pen = (pen_t){.model = sim_gud_create(
+                      &(sim_gud_config_t){.width = 16, .height = 8, .preferred = 1, .backlight = true, .rotations = 15}, NULL)};
+    pen.usb = *pen.model;
+    pen.usb.control = pen_control;
+    pen.usb.bulk = pen_bulk;
+    pen.usb.reset = pen_reset;
+    stand.model = pen.model;
+    stand.device = mock_usb_plug(1, &pen.usb);
+    assert_int_equal(tuile_gud_open(&stand.gud, NULL), 0);
+    assert_int_equal(gud_stand_begin(&stand, 0, 0), 0);
+    gud_stand_draw(&stand, &(usb_card_way_t){.seed = 77, .tile_height = 5}, 0);
+    assert_int_equal(tuile_display_close(&stand.display), 0);
+    gud_stand_finish(&stand);
+    assert_string_equal(pen.text, expected);
+}
+
 /* ---- which device ----------------------------------------------------------------------------------------------- */
 
 static void test_several_displays_by_serial_and_by_place(void **state) {
@@ -388,6 +468,7 @@ int main(void) {
         cmocka_unit_test_setup(test_rotation_that_the_device_does_not_have, mock_usb_set_up),
         cmocka_unit_test_setup(test_status_is_read_after_each_set_where_the_device_wants_it, mock_usb_set_up),
         cmocka_unit_test_setup(test_sleep_and_resume, mock_usb_set_up),
+        cmocka_unit_test_setup(test_requests_in_the_kernels_order, mock_usb_set_up),
         cmocka_unit_test_setup(test_several_displays_by_serial_and_by_place, mock_usb_set_up),
         cmocka_unit_test_setup(test_nothing_attached, mock_usb_set_up),
         cmocka_unit_test_setup(test_other_ids_of_gud, mock_usb_set_up),

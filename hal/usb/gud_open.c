@@ -65,12 +65,25 @@ static int read_formats(tuile_gud_t *gud) {
     return tuile_usb_fail(&gud->usb, TUILE_HAL_UNSUPPORTED, "the display offers no pixel format that is known here");
 }
 
+/* A list of records: an answer that ends within one was cut on its way. count is of records. */
+static int get_list(tuile_gud_t *gud, uint8_t request, uint16_t value, void *data, uint16_t record_bytes, uint16_t most,
+                    uint16_t *count) {
+    uint16_t bytes;
+    const int result = tuile_gud_get(gud, request, value, data, 0, (uint16_t)(most * record_bytes), &bytes);
+
+    if (result) { return result; }
+    *count = bytes / record_bytes;
+    if (bytes % record_bytes == 0) { return TUILE_HAL_OK; }
+    return tuile_usb_fail(&gud->usb, TUILE_HAL_PROTOCOL, "an answer of %u bytes to request %02X: not records of %u", bytes, request,
+                          record_bytes);
+}
+
 static int read_properties(tuile_gud_t *gud, uint8_t request, uint16_t connector) {
     uint8_t bytes[PROPERTIES_MAX * PROPERTY_BYTES];
     uint16_t count;
-    const int result = tuile_gud_get(gud, request, connector, bytes, 0, sizeof bytes, &count);
+    const int result = get_list(gud, request, connector, bytes, PROPERTY_BYTES, PROPERTIES_MAX, &count);
 
-    for (unsigned at = 0; !result && at + PROPERTY_BYTES <= count; at += PROPERTY_BYTES) {
+    for (unsigned at = 0; !result && at < (unsigned)count * PROPERTY_BYTES; at += PROPERTY_BYTES) {
         tuile_gud_property_t *property = &gud->properties[gud->property_count++];
         property->id = (uint16_t)tuile_gud_get16(bytes + at);
         property->value = tuile_gud_get32(bytes + at + 2) | (uint64_t)tuile_gud_get32(bytes + at + 6) << 32;
@@ -97,10 +110,10 @@ static int choose_connector(tuile_gud_t *gud, const tuile_gud_config_t *config) 
     uint8_t bytes[CONNECTORS_MAX * CONNECTOR_BYTES];
     uint16_t count;
     unsigned first = 0, end;
-    int chosen = -1, result = tuile_gud_get(gud, TUILE_GUD_GET_CONNECTORS, 0, bytes, CONNECTOR_BYTES, sizeof bytes, &count);
+    int chosen = -1, result = get_list(gud, TUILE_GUD_GET_CONNECTORS, 0, bytes, CONNECTOR_BYTES, CONNECTORS_MAX, &count);
 
     if (result) { return result; }
-    end = gud->connectors = (uint8_t)(count / CONNECTOR_BYTES);
+    end = gud->connectors = (uint8_t)count;
     if (config->connector) { first = config->connector - 1u, end = config->connector; }
     if (end > gud->connectors) {
         return tuile_usb_fail(&gud->usb, TUILE_HAL_NOT_FOUND, "there is no connector %u, only %u", config->connector,
@@ -136,15 +149,15 @@ static bool fits(const uint8_t *mode, const limits_t *limits, const tuile_gud_co
 static int choose_mode(tuile_gud_t *gud, const tuile_gud_config_t *config, const limits_t *limits) {
     uint8_t edid[EDID_MAX_BYTES], modes[MODES_MAX][TUILE_GUD_MODE_BYTES];
     const uint8_t *chosen = NULL;
-    uint16_t edid_bytes, bytes;
+    uint16_t edid_bytes, mode_count;
     unsigned count;
     int result;
 
     if ((result = tuile_gud_get(gud, TUILE_GUD_GET_EDID, gud->connector, edid, 0, sizeof edid, &edid_bytes)) ||
-        (result = tuile_gud_get(gud, TUILE_GUD_GET_MODES, gud->connector, modes, 0, sizeof modes, &bytes))) {
+        (result = get_list(gud, TUILE_GUD_GET_MODES, gud->connector, modes, TUILE_GUD_MODE_BYTES, MODES_MAX, &mode_count))) {
         return result;
     }
-    count = bytes / TUILE_GUD_MODE_BYTES;
+    count = mode_count;
     if (!count) { count = tuile_edid_modes(edid, edid_bytes, modes); }
     for (unsigned i = 0; i < count; i++) {
         if (!fits(modes[i], limits, config)) { continue; }
@@ -191,10 +204,10 @@ int tuile_gud_open(tuile_gud_t *gud, const tuile_gud_config_t *config) {
                                  config->timeout_ms ? config->timeout_ms : TIMEOUT_MS, gud->error_text))) {
         return result;
     }
-    if ((result = read_display(gud, config, &limits)) || (result = read_formats(gud)) || (result = choose_connector(gud, config)) ||
+    if ((result = read_display(gud, config, &limits)) || (result = read_formats(gud)) ||
+        (result = read_properties(gud, TUILE_GUD_GET_PROPERTIES, 0)) || (result = choose_connector(gud, config)) ||
         (result = read_properties(gud, TUILE_GUD_GET_CONNECTOR_PROPERTIES, gud->connector)) ||
-        (result = read_properties(gud, TUILE_GUD_GET_PROPERTIES, 0)) || (result = choose_mode(gud, config, &limits)) ||
-        (result = allocate(gud))) {
+        (result = choose_mode(gud, config, &limits)) || (result = allocate(gud))) {
         tuile_gud_close(gud);
     }
     return result;
