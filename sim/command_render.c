@@ -13,6 +13,7 @@
 #include "render_mesh.h"
 #include "render_overlay.h"
 #include "render_surface.h"
+#include "render_update.h"
 #include "render_value.h"
 #include "render_world.h"
 #include "sheet.h"
@@ -61,6 +62,7 @@ static const char usage[] =
 static void print_usage(FILE *file) {
     (void)fputs(usage, file);
     (void)fputs(render_display_usage, file);
+    (void)fputs(render_update_usage, file);
     (void)fputs(render_light_usage, file);
     (void)fputs(render_mesh_usage, file);
     (void)fputs(render_format_usage, file);
@@ -85,6 +87,7 @@ typedef struct render {
     render_world_t world;
     render_overlay_t overlay;
     render_layer_t layer;
+    render_update_t update;
     mesh_options_t mesh_options;
     view_options_t view_options;
 
@@ -196,7 +199,7 @@ static int parse(render_t *r, int count, char **arguments) {
                    !render_mesh_option(&r->mesh_options, &options, argument) &&
                    !render_surface_option(&r->surface, &options, argument) && !render_world_option(&r->world, &options, argument) &&
                    !render_light_option(&r->light, &options, argument) && !render_overlay_option(&r->overlay, &options, argument) &&
-                   !render_layer_option(&r->layer, &options, argument)) {
+                   !render_layer_option(&r->layer, &options, argument) && !render_update_option(&r->update, &options, argument)) {
             options_unknown(&options);
         }
     }
@@ -309,6 +312,7 @@ static int set_up(render_t *r) {
     }
     if (render_world_place(&r->world, &r->view, (unsigned)r->frames, &r->error) != 0) { return command_fail("%s", r->error.text); }
     if (render_light_place(&r->light, &r->view, &r->error) != 0) { return command_fail("%s", r->error.text); }
+    if (render_update_open(&r->update, tuile_config(r->renderer), r->view.scene.instance_count) != 0) { return EXIT_FAILURE; }
     if (r->sheet) {
         r->pictures = sim_pictures_create((size_t)r->frames);
         if (!r->pictures) { return command_fail("out of memory"); }
@@ -461,7 +465,7 @@ static int write_show(render_t *r, const char *name) {
 /* The frame by way of the display: what is seen, and the panel's memory as it lies, where that is simulated. */
 static int draw_displayed(render_t *r, sim_picture_t *picture, sim_picture_t *glass) {
     target_begin_frame(&r->target);
-    const int result = tuile_stream_frame(r->renderer, &r->view.scene, &r->target.display, &r->stats);
+    const int result = render_update_frame(&r->update, r->renderer, &r->view.scene, &r->target.display, &r->stats);
     if (result) { return result; }
     target_frame_figures(&r->target, &r->wire_bytes, &r->frame_ns);
     return target_is_simulated(&r->target) ? target_picture(&r->target, picture, glass, &r->error) != 0 : 0;
@@ -558,6 +562,7 @@ static int run(render_t *r) {
                      r->model_path, r->stats.faces, r->stats.size_bytes, r->stats.least_bytes, r->peak_bytes, r->passes_max,
                      r->passes_max == 1 ? "" : "es", r->stats.tiles, (unsigned long long)r->wire_bytes, bus);
     }
+    render_update_tell(&r->update);
     render_overlay_tell(&r->stats);
     return command_finish();
 }
@@ -576,6 +581,7 @@ int command_render(int count, char **arguments) {
         free(r.bytes);
         render_world_free(&r.world);
         render_layer_free(&r.layer);
+        render_update_close(&r.update);
         render_light_free(&r.light);
     }
     render_overlay_free(&r.overlay);

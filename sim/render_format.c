@@ -7,12 +7,13 @@
 #include <string.h>
 
 const char render_format_usage[] =
-    "  --format F               rgb565be (default, goes to the panel), rgb565le, rgb444, rgb666, rgb332, grey8, grey4,\n"
-    "                           mono-pages, mono-rows, mono-pages-turned, grey4-turned, rgb111, xrgb1111, bgr888,\n"
-    "                           xrgb8888: decoded without a panel\n"
+    "  --format F               rgb565be, rgb565le, rgb444, rgb666, rgb332, rgb111, xrgb1111, bgr888, xrgb8888, grey8, grey4,\n"
+    "                           mono-pages, mono-rows, mono-pages-turned, grey4-turned: one that the display takes, by default\n"
+    "                           its first; without --panel and --display those that the ILI9341 does not take are decoded\n"
+    "                           without a panel\n"
     "  --dither                 ordered dithering; mono is always dithered\n"
     "  --aa none|2x2|4x4        samples of each pixel\n"
-    "  --size WxH               the panel's size at --rotate 0, for formats other than rgb565be; 240x320 by default\n";
+    "  --size WxH               size at --rotate 0 where no panel takes part; 240x320 by default\n";
 
 static const char *const names[] = {
     "rgb565be",  "rgb565le",          "rgb444",       "rgb666", "rgb332",   "grey8",  "grey4",    "mono-pages",
