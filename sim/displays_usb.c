@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* hal/linux/60-tuile.rules has the same numbers. */
 static const struct {
@@ -138,6 +139,12 @@ static bool print_device(libusb_device *device) {
     return true;
 }
 
+static int by_place(const void *a, const void *b) {
+    libusb_device *const one = *(libusb_device *const *)a, *const other = *(libusb_device *const *)b;
+    const int buses = libusb_get_bus_number(one) - libusb_get_bus_number(other);
+    return buses ? buses : libusb_get_device_address(one) - libusb_get_device_address(other);
+}
+
 void displays_usb_print(void) {
     libusb_context *context = NULL;
     libusb_device **devices = NULL;
@@ -150,6 +157,7 @@ void displays_usb_print(void) {
     }
     count = libusb_get_device_list(context, &devices);
     (void)printf("USB\n");
+    if (count > 0) { qsort(devices, (size_t)count, sizeof *devices, by_place); }
     for (ssize_t i = 0; i < count; i++) {
         any = print_device(devices[i]) || any;
     }
