@@ -65,7 +65,7 @@ define need
 	@mkdir -p $(@D) && touch $@
 endef
 
-.PHONY: golden help all demo test test-asan test-clang check bench bench-methods bench-instances docs-pictures gallery size size-arm format format-check lint clean
+.PHONY: golden help all demo test test-asan test-clang check bench bench-methods bench-instances docs-pictures gallery install-udev size size-arm format format-check lint clean
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' Makefile tests/linux/linux.mk | sed 's/:.*##/\t/' | expand -t 16
 
@@ -117,6 +117,23 @@ $(MOCK_TESTS): $(call objects,$(MOCK_SRC))
 $(MOCK_TESTS): LIBS_TEST += -lumockdev -lgobject-2.0 -lglib-2.0
 $(patsubst $(OBJ)/%,$(OBJ)/tests/%.o,$(MOCK_TESTS)) $(call objects,$(MOCK_SRC)): CFLAGS_TEST = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags umockdev-1.0))
 
+# hal/linux is written for libgpiod 1 and 2. Where the system's is version 1, its tests are built against version 2 as well, from
+# Debian's backports: fetched by an apt with lists of its own, unpacked under build/, not installed.
+GPIOD2 := $(BUILD)/gpiod2
+GPIOD2_TESTS := $(patsubst $(OBJ)/test_mock_linux_%,$(OBJ)/test_mock_gpiod2_%,$(filter $(OBJ)/test_mock_linux_%,$(MOCK_TESTS)))
+GPIOD2_OBJ := $(OBJ)/gpiod2/lines_v1.o $(OBJ)/gpiod2/lines_v2.o
+$(GPIOD2)/lib/libgpiod.a: tests/mock/gpiod2.sh
+	@echo "Fetching libgpiod 2 from Debian's backports for the tests of hal/linux (unpacked under $(GPIOD2), not installed)"
+	@sh tests/mock/gpiod2.sh $(GPIOD2)
+
+$(GPIOD2_OBJ): $(OBJ)/gpiod2/%.o: hal/linux/%.c Makefile $(GPIOD2)/lib/libgpiod.a
+	@mkdir -p $(@D)
+	@echo "  $(notdir $(CC)) $< (libgpiod 2)"; $(CC) $(CFLAGS_HOST) -I$(GPIOD2)/include -MMD -MP -c $< -o $@
+
+$(GPIOD2_TESTS): $(OBJ)/test_mock_gpiod2_%: $(OBJ)/tests/test_mock_linux_%.o $(GPIOD2_OBJ) $(call objects,$(MOCK_SRC)) $(TEST_LIB_OBJ) \
+  $(filter-out $(OBJ)/hal/linux/lines_v%.o,$(SIM_LIB_OBJ)) $(CORE_OBJ)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(subst -lgpiod,$(GPIOD2)/lib/libgpiod.a,$(LIBS_SIM)) $(LIBS_TEST) -lumockdev -lgobject-2.0 -lglib-2.0 -o $@
+
 $(OBJ)/tests/fuzz_%.o: CFLAGS_HOST += -DFUZZ_DRIVER
 $(OBJ)/fuzz_%: $(OBJ)/tests/fuzz_%.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@
@@ -158,9 +175,9 @@ endif
 RUN_TESTS = for t in $(1); do echo "== $$t"; case $$t in */test_mock_*) under="$(MOCK_RUN)" ;; *) under= ;; esac; \
   TUILE=$(TUILE) SPIDER=$(SPIDER) BUNNY_6000=$(BUNNY_6000) BUILD=$(BUILD) $$under $$t || exit 1; done
 
-check: $(TESTS) $(FUZZERS) $(TUILE) $(SPIDER) $(BUNNY_6000)
+check: $(TESTS) $(GPIOD2_TESTS) $(FUZZERS) $(TUILE) $(SPIDER) $(BUNNY_6000)
 	@$(call RUN_TESTS,$(FUZZERS))
-	@$(call RUN_TESTS,$(TESTS))
+	@$(call RUN_TESTS,$(TESTS) $(GPIOD2_TESTS))
 
 test: ## builds and passes everything: gcc, sanitizers, clang
 	$(MAKE) --no-print-directory check objects
@@ -255,6 +272,11 @@ size-arm: $(BUILD)/need/arm ## code size of a renderer of each method on Cortex-
 
 size-features: $(BUILD)/need/arm ## code size of each feature on Cortex-M3
 	@sh tests/size_features.sh $(BUILD)/arm arm-none-eabi- -std=c11 -ffreestanding $(WARN)
+
+install-udev: ## udev's rules: the groups spi, gpio and plugdev may draw on displays
+	@if [ -z "$(DESTDIR)" ]; then for g in spi gpio plugdev; do getent group $$g >/dev/null || $(SUDO) groupadd --system $$g; done; fi
+	$(SUDO) install -D -m 644 hal/linux/60-tuile.rules $(DESTDIR)/etc/udev/rules.d/60-tuile.rules
+	@if [ -z "$(DESTDIR)" ] && command -v udevadm >/dev/null; then $(SUDO) udevadm control --reload && $(SUDO) udevadm trigger; fi
 
 FORMATTED := $(shell git ls-files '*.c' '*.h' 2>/dev/null)
 format: $(BUILD)/need/format ## clang-format all sources

@@ -180,6 +180,23 @@ static void rules_name_what_is_listed(void **state) {
     free(rules);
 }
 
+static void rules_are_installed(void **state) {
+    char *folder = command_folder(), line[300];
+    command_result_t result;
+
+    (void)state;
+    (void)snprintf(
+        line, sizeof line,
+        "env -u LD_PRELOAD make -s install-udev DESTDIR=%s && cmp hal/linux/60-tuile.rules %s/etc/udev/rules.d/60-tuile.rules",
+        folder, folder);
+    command_shell(&result, line);
+    if (result.code) { fail_msg("%s%s", result.out, result.err); }
+    command_free(&result);
+    (void)snprintf(line, sizeof line, "rm -r %s/etc", folder);
+    assert_int_equal(system(line), 0);
+    command_remove(folder);
+}
+
 int main(void) {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(nothing_is_attached, NULL, mock_linux_end),
@@ -189,6 +206,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(no_permission_names_the_rules, NULL, mock_linux_end),
         cmocka_unit_test_setup_teardown(usage_and_help, cli_set_up, cli_tear_down),
         cmocka_unit_test(rules_name_what_is_listed),
+        cmocka_unit_test(rules_are_installed),
     };
     return cmocka_run_group_tests_name("tuile displays", tests, NULL, NULL);
 }
