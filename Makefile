@@ -65,7 +65,7 @@ define need
 	@mkdir -p $(@D) && touch $@
 endef
 
-.PHONY: golden help all demo test test-asan test-clang check bench bench-methods bench-instances docs-pictures gallery install-udev size size-arm format format-check lint clean
+.PHONY: golden help all demo test test-asan test-clang check bench bench-methods bench-instances bench-linux docs-pictures gallery install-udev size size-arm format format-check lint clean
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' Makefile tests/linux/linux.mk | sed 's/:.*##/\t/' | expand -t 16
 
@@ -115,7 +115,7 @@ $(OBJ)/test_mesa: LIBS_TEST += -lOSMesa
 # Under umockdev, see RUN_TESTS.
 $(MOCK_TESTS): $(call objects,$(MOCK_SRC))
 $(MOCK_TESTS): LIBS_TEST += -lumockdev -lgobject-2.0 -lglib-2.0
-$(patsubst $(OBJ)/%,$(OBJ)/tests/%.o,$(MOCK_TESTS)) $(call objects,$(MOCK_SRC)): CFLAGS_TEST = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags umockdev-1.0))
+$(patsubst $(OBJ)/%,$(OBJ)/tests/%.o,$(MOCK_TESTS)) $(call objects,$(MOCK_SRC) tests/bench/linux.c): CFLAGS_TEST = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags umockdev-1.0))
 
 # hal/linux is written for libgpiod 1 and 2. Where the system's is version 1, its tests are built against version 2 as well, from
 # Debian's backports: fetched by an apt with lists of its own, unpacked under build/, not installed.
@@ -245,6 +245,12 @@ $(OBJ)/instances: $(OBJ)/tests/bench/instances.o $(SIM_LIB_OBJ) $(CORE_OBJ)
 
 bench-instances: $(OBJ)/instances $(BUILD)/need/bench $(COMPARED)/sphere.tuile ## what instances cost that nobody sees
 	@sh tests/bench/instances.sh $(OBJ)/instances $(BUILD)/bench 16 tests/models/link.obj $(COMPARED)/sphere.tuile
+
+$(OBJ)/bench-linux: $(OBJ)/tests/bench/linux.o $(call objects,$(MOCK_SRC)) $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -lumockdev -lgobject-2.0 -lglib-2.0 -o $@
+
+bench-linux: $(OBJ)/bench-linux ## what the sending thread of a Linux board is worth
+	@umockdev-wrapper $<
 
 # ---- pictures of docs/methods.md: one view of each method, from the inside of a room and of four beams -----------------
 PICTURES := docs/pictures
