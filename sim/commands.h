@@ -8,6 +8,7 @@ int command_render(int count, char **arguments);
 int command_panels(int count, char **arguments);
 int command_displays(int count, char **arguments);
 int command_card(int count, char **arguments);
+int command_scene(int count, char **arguments);
 int command_mesh(int count, char **arguments);
 int command_font(int count, char **arguments);
 int command_faces(int count, char **arguments);

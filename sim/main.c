@@ -12,6 +12,7 @@ static const char usage[] =
     "  tuile panels                       the panels that there are\n"
     "  tuile displays                     what is attached, and why it cannot be used if so\n"
     "  tuile card [options]               a test card: which way is up, the order of the colours, the border\n"
+    "  tuile scene [NAME] [options]       a scene of the list that boards draw\n"
     "  tuile mesh IN -o OUT.c|OUT.tuile   compile a model for flash\n"
     "  tuile font FONT.bdf -o OUT.c        compile a bitmap font for flash\n"
     "  tuile faces SCENE                  the visible face of each pixel of a text scene\n"
@@ -24,8 +25,9 @@ int main(int count, char **arguments) {
         const char *name;
         int (*run)(int count, char **arguments);
     } commands[] = {
-        {"render", command_render}, {"panels", command_panels}, {"displays", command_displays}, {"card", command_card},
-        {"mesh", command_mesh},     {"font", command_font},     {"faces", command_faces},       {"coverage", command_coverage},
+        {"render", command_render}, {"panels", command_panels}, {"displays", command_displays},
+        {"card", command_card},     {"scene", command_scene},   {"mesh", command_mesh},
+        {"font", command_font},     {"faces", command_faces},   {"coverage", command_coverage},
     };
     (void)signal(SIGPIPE, SIG_IGN); /* a closed pipe is reported as a write error */
     if (count < 2) {

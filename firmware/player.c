@@ -1,0 +1,53 @@
+#include "player.h"
+
+/* The most rows that a tile of this block has and that the display's windows can begin at; 0 when it is less than one such row. */
+static unsigned aligned_rows(const tuile_t *renderer, unsigned align) {
+    const unsigned rows = tuile_config(renderer)->tile_height;
+
+    return rows == tuile_config(renderer)->height ? rows : rows / align * align;
+}
+
+static int lay_out(player_t *player, tuile_config_t *layout, const player_config_t *config) {
+    const unsigned align = player->display->align_y;
+    unsigned rows;
+    int error = tuile_init(&player->renderer, layout, config->block, config->block_bytes, &player->wanted_bytes);
+
+    if (error || layout->tile_height ||
+        (rows = aligned_rows(player->renderer, align)) == tuile_config(player->renderer)->tile_height) {
+        return error;
+    }
+    layout->tile_height = (uint16_t)(rows ? rows : align);
+    return tuile_init(&player->renderer, layout, config->block, config->block_bytes, &player->wanted_bytes);
+}
+
+int player_open(player_t *player, const scene_script_t *script, const player_config_t *config) {
+    tuile_config_t layout = {
+        .width = config->display->width,
+        .height = config->display->height,
+        .tile_width = config->tile_width,
+        .tile_height = config->tile_height,
+        .format = tuile_stream_format(config->display),
+        .method = config->method,
+        .buffers = config->buffers,
+    };
+    int error;
+
+    player->display = config->display;
+    player->stats = (tuile_stats_t){0};
+    player->wanted_bytes = 0;
+    if (config->method > TUILE_TREE || !(script->methods >> config->method & 1u)) { return TUILE_ERROR_ARGUMENT; }
+    if ((error = scene_open(&player->stage, script, config->model, config->model_bytes, layout.width, layout.height))) {
+        return error;
+    }
+    scene_configure(&player->stage, &layout);
+    return lay_out(player, &layout, config);
+}
+
+int player_frame(player_t *player, uint32_t frame) {
+    int error = scene_frame(&player->stage, frame);
+
+    if (error) { return error; }
+    error = tuile_stream_frame(player->renderer, &player->stage.scene, player->display, &player->stats);
+    if (error == TUILE_ERROR_MEMORY) { player->wanted_bytes = tuile_wanted(player->renderer); }
+    return error;
+}

@@ -1,0 +1,204 @@
+/* tuile scene: the scenes that boards draw, on a simulated panel: what a board's frames are held against. */
+#include "../firmware/player.h"
+#include "commands.h"
+#include "mesh/mesh.h"
+#include "render_display.h"
+#include "render_format.h"
+#include "render_value.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char usage[] =
+    "Usage: tuile scene [NAME] [options]\n"
+    "\n"
+    "Draws a scene of the list that boards draw (firmware/scenes.c); without a name it lists them.\n"
+    "\n"
+    "  --models FOLDER          where the compiled models are, build/firmware/models by default (`make firmware-models`)\n"
+    "  --model FILE             another model in the place of the scene's own: a .tuile file or anything Assimp reads\n"
+    "  --method M               hidden-surface method: zbuffer (default), scanline, warnock, painter, tree\n"
+    "  --frames N               number of frames, 1 by default\n"
+    "  --first N                number of the first one, 0 by default\n"
+    "  --memory 16K             the renderer's memory, 256K by default\n"
+    "  --tile WxH               tile size in pixels; by default whole rows, as many as suit the memory\n"
+    "  --format F               format on the wire, of those that the display takes\n"
+    "  --out frame-%02d.png     pictures of the panel; PPM when the name ends so\n"
+    "  --hash                   prints a hash of the panel's picture for each frame\n";
+
+typedef struct scene_command {
+    const char *name, *models, *model, *out;
+    long frames, first;
+    size_t memory_bytes;
+    uint16_t tile_width, tile_height;
+    bool hash;
+    uint8_t method;
+    render_display_t where;
+    render_format_t format;
+
+    const scene_script_t *script;
+    uint8_t *bytes;
+    void *block;
+    target_t target;
+    player_t player;
+} scene_command_t;
+
+static int parse(scene_command_t *c, int count, char **arguments) {
+    options_t options;
+    const char *argument;
+    int choice;
+    c->frames = 1;
+    c->memory_bytes = 256u * 1024u;
+    c->models = "build/firmware/models";
+    options_open(&options, count, arguments);
+    while ((argument = options_next(&options)) != NULL) {
+        if (!options.name) {
+            if (c->name) { return command_fail("scene: one at a time, but got %s and %s", c->name, argument), EXIT_USAGE; }
+            c->name = argument;
+        } else if (strcmp(argument, "--models") == 0) {
+            c->models = options_value(&options);
+        } else if (strcmp(argument, "--model") == 0) {
+            c->model = options_value(&options);
+        } else if (strcmp(argument, "--method") == 0) {
+            if (options_choice(&options, &choice, options_methods)) { c->method = (uint8_t)choice; }
+        } else if (strcmp(argument, "--frames") == 0) {
+            (void)options_integer(&options, &c->frames, 1, 100000);
+        } else if (strcmp(argument, "--first") == 0) {
+            (void)options_integer(&options, &c->first, 0, 100000);
+        } else if (strcmp(argument, "--memory") == 0) {
+            (void)options_size(&options, &c->memory_bytes);
+        } else if (strcmp(argument, "--tile") == 0) {
+            (void)options_tile(&options, &c->tile_width, &c->tile_height);
+        } else if (strcmp(argument, "--out") == 0) {
+            c->out = options_value(&options);
+        } else if (strcmp(argument, "--hash") == 0) {
+            c->hash = true;
+        } else if (strcmp(argument, "--help") == 0) {
+            (void)fputs(usage, stdout);
+            (void)fputs(render_display_usage, stdout);
+            return -1;
+        } else if (!render_display_option(&c->where, &options, argument) &&
+                   (strcmp(argument, "--format") != 0 || !render_format_option(&c->format, &options, argument))) {
+            options_unknown(&options);
+        }
+    }
+    if (options.failed) { return EXIT_USAGE; }
+    return render_value_pattern("--out", c->out, c->frames) ? 0 : EXIT_USAGE;
+}
+
+static int list(void) {
+    for (unsigned i = 0; i < scene_count; i++) {
+        const char *separator = "";
+        (void)printf("%-8s %s; ", scenes[i]->name, scenes[i]->about);
+        for (unsigned m = 0; options_methods[m]; m++) {
+            if (!(scenes[i]->methods >> m & 1u)) { continue; }
+            (void)printf("%s%s", separator, options_methods[m]);
+            separator = ", ";
+        }
+        (void)printf("\n");
+    }
+    return command_finish();
+}
+
+static int load(scene_command_t *c, player_config_t *config) {
+    const mesh_options_t options = {.tree = (c->script->methods >> TUILE_TREE & 1u) != 0};
+    char path[4096];
+    mesh_report_t report;
+    sim_error_t error = {""};
+    (void)snprintf(path, sizeof path, "%s/%s.tuile", c->models, c->script->model);
+    if (mesh_load(c->model ? c->model : path, 0, &options, &c->bytes, &config->model_bytes, &report, &error) != 0) {
+        return command_fail("%s%s", error.text, c->model ? "" : " (`make firmware-models` compiles the models of the scenes)");
+    }
+    config->model = c->bytes;
+    return 0;
+}
+
+static int set_up(scene_command_t *c) {
+    const uint8_t wire = c->format.named ? (uint8_t)(c->format.format + 1) : TUILE_WIRE_DEFAULT;
+    player_config_t config = {
+        .display = &c->target.display,
+        .block_bytes = c->memory_bytes,
+        .method = c->method,
+        .tile_width = c->tile_width,
+        .tile_height = c->tile_height,
+    };
+    c->script = scene_find(c->name);
+    if (!c->script) { return command_fail("scene %s: there is none; `tuile scene` lists them", c->name); }
+    if (!(c->script->methods >> c->method & 1u)) {
+        return command_fail("--method %s: not for the scene %s; `tuile scene` lists which are", options_methods[c->method],
+                            c->name);
+    }
+    if (load(c, &config) != 0 || render_display_open(&c->where, &c->target, wire) != 0) { return EXIT_FAILURE; }
+    if (!target_is_simulated(&c->target) && (c->out || c->hash)) {
+        return command_fail("%s: a real display cannot be looked at; leave out --out and --hash", c->target.config.text);
+    }
+    c->block = config.block = malloc(c->memory_bytes);
+    if (!c->block) { return command_fail("out of memory"); }
+    const int result = player_open(&c->player, c->script, &config);
+    if (result == TUILE_ERROR_MEMORY) {
+        return command_fail("--memory: %zu bytes are too few; at least %zu are wanted", c->memory_bytes, c->player.wanted_bytes);
+    }
+    return result ? command_fail("scene %s: %s", c->name, tuile_stream_error_text(result)) : 0;
+}
+
+/* FNV-1a, 64 bits, over rows of red, green, blue. */
+static uint64_t picture_hash(const sim_picture_t *picture) {
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < (size_t)picture->width * picture->height * 3; i++) {
+        hash = (hash ^ picture->rgb[i]) * 0x100000001b3u;
+    }
+    return hash;
+}
+
+static int draw(scene_command_t *c, unsigned number) {
+    sim_picture_t seen = {0}, glass = {0};
+    sim_error_t error = {""};
+    char name[4096];
+    const int result = player_frame(&c->player, number);
+    if (result == TUILE_ERROR_MEMORY) {
+        return command_fail("frame %u: --memory: %zu bytes are too few for this method; %zu would do", number, c->memory_bytes,
+                            c->player.wanted_bytes);
+    }
+    if (result) {
+        return command_fail("frame %u: %s%s%s", number, tuile_stream_error_text(result), target_detail(&c->target)[0] ? ": " : "",
+                            target_detail(&c->target));
+    }
+    if (!target_is_simulated(&c->target)) { return 0; }
+    int code = target_picture(&c->target, &seen, &glass, &error) ? command_fail("%s", error.text) : 0;
+    if (code == 0 && c->hash) { (void)printf("frame %u %016llx\n", number, (unsigned long long)picture_hash(&glass)); }
+    if (code == 0 && c->out) {
+        render_value_frame_name(name, sizeof name, c->out, number);
+        if (sim_picture_write(&seen, name, &error) != 0) { code = command_fail("%s", error.text); }
+    }
+    sim_picture_free(&seen);
+    sim_picture_free(&glass);
+    return code;
+}
+
+static int run(scene_command_t *c) {
+    int code = set_up(c);
+    for (long i = 0; code == 0 && i < c->frames; i++) {
+        code = draw(c, (unsigned)(c->first + i));
+    }
+    if (code) { return code; }
+    if (!c->hash) {
+        const tuile_stats_t *s = &c->player.stats;
+        (void)printf("%s: %u faces; memory given %u, least %u, used %u bytes, %u pass%s; %u tiles\n", c->name, s->faces,
+                     s->size_bytes, s->least_bytes, s->peak_bytes, s->passes, s->passes == 1 ? "" : "es", s->tiles);
+    }
+    return command_finish();
+}
+
+int command_scene(int count, char **arguments) {
+    scene_command_t c;
+    memset(&c, 0, sizeof c);
+    int code = parse(&c, count, arguments);
+    if (code < 0) { return command_finish(); }
+    if (code > 0) { return code; }
+    if (!c.name) { return list(); }
+    code = run(&c);
+    target_close(&c.target);
+    free(c.block);
+    free(c.bytes);
+    return code;
+}

@@ -1,0 +1,82 @@
+/* tuile scene, as a user meets it. */
+#include "support/check.h"
+#include "support/cli.h"
+
+#include "../sim/picture.h"
+
+#include <unistd.h>
+
+/* The folder with the compiled models of cube and room. */
+static int set_up(void **state) {
+    if (cli_set_up(state) != 0) { return -1; }
+    cli_good_silent("mesh firmware/models/cube.obj --tree -o @/cube.tuile");
+    cli_good_silent("mesh tests/models/room.obj --tree -o @/room.tuile");
+    return 0;
+}
+
+static void without_a_name_the_scenes_are_listed(void **state) {
+    char *out = cli_good("scene");
+    (void)state;
+    assert_non_null(strstr(out, "cube "));
+    assert_non_null(strstr(out, "room "));
+    assert_non_null(strstr(out, "spider "));
+    assert_non_null(strstr(out, "turning; zbuffer, scanline, warnock, painter\n"));
+    assert_non_null(strstr(out, "turning; zbuffer, scanline, warnock, painter, tree\n"));
+    free(out);
+}
+
+static void frames_have_numbers_and_hashes(void **state) {
+    char *all = cli_good("scene room --models @ --panel ssd0323 --rotate 180 --frames 4 --hash");
+    char *last = cli_good("scene room --models @ --panel ssd0323 --rotate 180 --first 3 --hash --method tree --memory 10K");
+    (void)state;
+    assert_non_null(strstr(all, "frame 0 "));
+    assert_non_null(strstr(all, last));
+    assert_int_equal(strncmp(last, "frame 3 ", 8), 0);
+    free(all);
+    free(last);
+}
+
+static void pictures_are_of_the_panel_s_size(void **state) {
+    sim_picture_t picture;
+    (void)state;
+    cli_good_silent("scene cube --models @ --panel ssd0323 --rotate 90 --frames 2 --out @/cube-%d.ppm");
+    assert_int_equal(sim_picture_read(&picture, cli_path("cube-1.ppm"), NULL), 0);
+    assert_int_equal(picture.width, 64);
+    assert_int_equal(picture.height, 128);
+    sim_picture_free(&picture);
+    (void)unlink(cli_path("cube-0.ppm"));
+    (void)unlink(cli_path("cube-1.ppm"));
+}
+
+static void another_model_takes_the_place_of_the_scene_s(void **state) {
+    char *own = cli_good("scene cube --model @/torus.obj --hash"), *cube = cli_good("scene cube --models @ --hash");
+    (void)state;
+    assert_string_not_equal(own, cube);
+    free(own);
+    free(cube);
+}
+
+static void wrong_scenes_are_told(void **state) {
+    (void)state;
+    cli_fails("scene castle", "castle", "tuile scene");
+    cli_fails("scene cube room", "cube", "room");
+    cli_fails("scene spider --method tree", "--method tree", "spider");
+    cli_fails("scene spider --models @", "spider.tuile", "firmware-models");
+    cli_fails("scene cube --models @ --memory 1K", "--memory", "1024");
+    cli_fails("scene cube --models @ --panel vt100", "vt100", NULL);
+    cli_fails("scene cube --models @ --frames 0", "--frames", NULL);
+    cli_fails("scene cube --models @ --frames 2 --out @/x.png", "--out", NULL);
+    cli_fails("scene cube --models @ --colour red", "--colour", NULL);
+    cli_fails("scene cube --models @ --panel ssd0323 --format rgb565be", "--format", "ssd0323");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(without_a_name_the_scenes_are_listed),
+        cmocka_unit_test(frames_have_numbers_and_hashes),
+        cmocka_unit_test(pictures_are_of_the_panel_s_size),
+        cmocka_unit_test(another_model_takes_the_place_of_the_scene_s),
+        cmocka_unit_test(wrong_scenes_are_told),
+    };
+    return cmocka_run_group_tests_name("cli_scene", tests, set_up, cli_tear_down);
+}
