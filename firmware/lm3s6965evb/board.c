@@ -1,0 +1,65 @@
+/* Stellaris LM3S6965 evaluation board: Cortex-M3, 64 KB of SRAM, an SSD0323 of 128 x 64 in 16 greys. Lines go by UART0. */
+#include "../board.h"
+#include "../models.h"
+#include "../semihosting.h"
+#include "../../hal/panels/ssd0323.h"
+#include "lm3s6965.h"
+#include "ssi.h"
+
+#define BLOCK_BYTES (48u * 1024u)
+
+static _Alignas(8) uint8_t block[BLOCK_BYTES];
+
+void *board_block(size_t *size_bytes) {
+    *size_bytes = sizeof block;
+    return block;
+}
+
+const void *board_model(const scene_script_t *script, size_t *size_bytes) { return models_find(script, size_bytes); }
+
+/* 115 200 baud: the divisor has six binary places, and rounds (Universal Asynchronous Receivers/Transmitters, baud rate). */
+static void open_uart(void) {
+    const uint32_t divisor = (CORE_HZ * 4u + 115200u / 2u) / 115200u;
+
+    RCGC1 |= 1u << 0;
+    RCGC2 |= 1u << 0;
+    (void)RCGC2;
+    (void)RCGC2;
+    GPIO_AFSEL(PORT_A) |= 1u << 0 | 1u << 1;
+    GPIO_DEN(PORT_A) |= 1u << 0 | 1u << 1;
+    UART0_CTL = 0;
+    UART0_IBRD = divisor >> 6;
+    UART0_FBRD = divisor & 63u;
+    UART0_LCRH = UART_LCRH_8N1_FIFO;
+    UART0_CTL = UART_CTL_ENABLE;
+}
+
+const tuile_display_config_t *board_display(void) {
+    static tuile_bus_t bus;
+    static const tuile_display_config_t config = {.bus = &bus, .panel = &tuile_ssd0323};
+
+    open_uart();
+    ssi_open(&bus);
+    return &config;
+}
+
+static void put(char c) {
+    while (UART0_FR & UART_FR_TXFF) {}
+    UART0_DR = (uint8_t)c;
+}
+
+void board_tell(const char *line) {
+    while (*line) {
+        put(*line++);
+    }
+    put('\n');
+}
+
+void board_shown(void) {
+    while (UART0_FR & UART_FR_RXFE) {}
+    (void)UART0_DR;
+}
+
+void board_options(char *text, size_t size_bytes) { semihosting_options(text, size_bytes); }
+
+void board_park(board_code_t code) { semihosting_exit(code); }
