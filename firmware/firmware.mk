@@ -29,8 +29,7 @@ firmware-models: $(FIRMWARE_MODELS:%=$(FIRMWARE)/models/%.tuile) ## the models o
 
 # ---- programs -------------------------------------------------------------------------------------------------------
 # What every board builds, beside its own folder and BOARD_SRC. What it does not use is left out by the linker.
-FIRMWARE_SRC := $(wildcard raster/*.c raster/*/*.c hal/*.c) \
-                $(addprefix firmware/,stream.c scenes.c player.c models.c memory.c line.c frames.c)
+FIRMWARE_SRC := $(wildcard raster/*.c raster/*/*.c hal/*.c firmware/*.c firmware/board/*.c)
 FIRMWARE_FLAGS := -std=c11 -Os -ffreestanding -ffunction-sections -fdata-sections -fstack-usage -fcallgraph-info=su,da $(WARN)
 
 # $(call scene_bits,cube room): -DSCENES=(SCENE_CUBE|SCENE_ROOM), as firmware/scenes.h numbers them
@@ -54,7 +53,7 @@ $(1)/model_%.o: $$(FIRMWARE)/models/%.c | toolchain-$(2)
 	@mkdir -p $$(@D)
 	@$$($(2)_TOOLS)gcc $(3) -std=c11 -ffreestanding -fdata-sections -c $$< -o $$@
 
-$(1)/firmware/memory.o: FIRMWARE_MORE := -fno-tree-loop-distribute-patterns
+$(1)/firmware/board/memory.o: FIRMWARE_MORE := -fno-tree-loop-distribute-patterns
 $(1)/%.o: %.c Makefile firmware/firmware.mk firmware/$(2)/board.mk | toolchain-$(2)
 	@mkdir -p $$(@D)
 	@echo "  $(2) $$<"; $$($(2)_TOOLS)gcc $(3) $$(FIRMWARE_FLAGS) $$(FIRMWARE_MORE) $$(call scene_bits,$$($(2)_SCENES)) $$($(2)_DEFINES) -MMD -MP -c $$< -o $$@

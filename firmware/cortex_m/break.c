@@ -1,6 +1,6 @@
 /* Faults on purpose. */
-#include "../board.h"
-#include "../stack.h"
+#include "../board/board.h"
+#include "../board/stack.h"
 
 void board_break(board_code_t code) {
     if (code == BOARD_STACK_GUARD) {

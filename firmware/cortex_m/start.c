@@ -3,8 +3,8 @@
  *
  * The linker script lays the stack out below all data, so that a stack that outgrows its room leaves RAM, which is a fault, before
  * it spoils anything; painted words at its end tell also where no fault comes. */
-#include "../board.h"
-#include "../stack.h"
+#include "../board/board.h"
+#include "../board/stack.h"
 
 #include <stdint.h>
 

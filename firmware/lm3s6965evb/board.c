@@ -1,7 +1,7 @@
 /* Stellaris LM3S6965 evaluation board: Cortex-M3, 64 KB of SRAM, an SSD0323 of 128 x 64 in 16 greys. Lines go by UART0. */
-#include "../board.h"
-#include "../models.h"
-#include "../semihosting.h"
+#include "../board/board.h"
+#include "../board/models.h"
+#include "../board/semihosting.h"
 #include "../../hal/panels/ssd0323.h"
 #include "lm3s6965.h"
 #include "ssi.h"

@@ -4,5 +4,4 @@ lm3s6965evb_NEED := arm
 lm3s6965evb_FLAGS := -mcpu=cortex-m0 -mthumb
 lm3s6965evb_SCENES := cube room spider
 lm3s6965evb_DEFINES := -DTUILE_FEATURES=64 -DTUILE_FORMATS=0x80
-lm3s6965evb_SRC := firmware/cortex_m/start.c firmware/cortex_m/break.c firmware/stack.c firmware/semihosting.c \
-                   hal/panels/ssd0323.c
+lm3s6965evb_SRC := $(wildcard firmware/cortex_m/*.c) hal/panels/ssd0323.c

@@ -48,6 +48,8 @@
 #define SYST_CSR REGISTER(0xe000e010u)
 #define SYST_RVR REGISTER(0xe000e014u)
 #define SYST_CVR REGISTER(0xe000e018u)
+#define SYST_CSR_ENABLE 1u
+#define SYST_CSR_CORE 4u /* counts the core's clock */
 #define SYST_CSR_COUNTFLAG 0x10000u
 
 /* After reset the core runs by the internal oscillator, which has 12 MHz to within 30 % (System Control, clock sources). */

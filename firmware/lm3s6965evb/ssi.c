@@ -1,6 +1,6 @@
 #include "ssi.h"
 
-#include "../board.h"
+#include "../board/board.h"
 #include "lm3s6965.h"
 
 #define PIN_DC (1u << 7)     /* of port C: high for data */
@@ -15,8 +15,8 @@ static void drain(void) {
     }
 }
 
-/* For each byte that goes out one comes in. No more are under way than the receive FIFO holds, or it would overrun, and the panel's
- * side of some controllers stop at that. */
+/* For each byte that goes out one comes in, and is taken out of the receive FIFO before it is full: QEMU's PL022 stops when it is,
+ * a real one loses what comes. */
 static void send(const uint8_t *bytes, size_t size_bytes) {
     size_t sent = 0, received = 0;
 
@@ -67,7 +67,7 @@ static int delay_ms(void *context, uint32_t delay_ms) {
     (void)context;
     SYST_RVR = CORE_MOST_HZ / 1000u - 1u;
     SYST_CVR = 0;
-    SYST_CSR = 5; /* counts the core's clock, without interrupts */
+    SYST_CSR = SYST_CSR_CORE | SYST_CSR_ENABLE;
     for (; delay_ms; delay_ms--) {
         while (!(SYST_CSR & SYST_CSR_COUNTFLAG)) {}
     }

@@ -2,7 +2,7 @@
 #ifndef TUILE_FIRMWARE_MODELS_H
 #define TUILE_FIRMWARE_MODELS_H
 
-#include "scenes.h"
+#include "../scenes.h"
 
 /* The words of the script's model; NULL when the build has none such. */
 const uint32_t *models_find(const scene_script_t *script, size_t *size_bytes);

@@ -10,7 +10,7 @@
  * Options: frames=N (8), scene=NAME and method=NAME (all), fault=hard, stack or assert: breaks on purpose. */
 #include "board.h"
 #include "line.h"
-#include "player.h"
+#include "../player.h"
 
 static const char *const method_names[] = {"zbuffer", "scanline", "warnock", "painter", "tree"};
 

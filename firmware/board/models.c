@@ -1,6 +1,6 @@
 #include "models.h"
 
-#include "../raster/geometry/model.h"
+#include "../../raster/geometry/model.h"
 
 extern const uint32_t model_cube[], model_room[], model_spider[], model_bunny[];
 

@@ -1,6 +1,6 @@
 /* The functions that a compiler calls by itself, for boards without a C library. Built with -fno-tree-loop-distribute-patterns:
  * else each would become a call of itself. */
-#include "../raster/memory.h"
+#include "../../raster/memory.h"
 
 #include <stdint.h>
 

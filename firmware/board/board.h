@@ -2,8 +2,8 @@
 #ifndef TUILE_FIRMWARE_BOARD_H
 #define TUILE_FIRMWARE_BOARD_H
 
-#include "../hal/display.h"
-#include "scenes.h"
+#include "../../hal/display.h"
+#include "../scenes.h"
 
 /* How a program ended: the code that an emulator's harness or a debugger finds. */
 typedef enum board_code {
