@@ -2,6 +2,11 @@
 
 FIRMWARE := $(BUILD)/firmware
 BOARDS := $(patsubst firmware/%/board.mk,%,$(wildcard firmware/*/board.mk))
+
+# Armv6-M. With -Os gcc 12 lets a function free its stack by popping into r1, r2 or r3, while a caller in the same file believes, by
+# -fipa-ra, that the function leaves them alone: polygons were filled from one side of the window to the other.
+FIRMWARE_V6M := -mthumb -fno-ipa-ra
+
 include $(patsubst %,firmware/%/board.mk,$(BOARDS))
 
 $(BUILD)/need/riscv: ; $(call need,gcc-riscv64-unknown-elf,a compiler for RISC-V)

@@ -1,7 +1,7 @@
 # QEMU has this board with its panel, and lets it have other cores: one image, built for the least of them, runs on all.
 lm3s6965evb_TOOLS := arm-none-eabi-
 lm3s6965evb_NEED := arm
-lm3s6965evb_FLAGS := -mcpu=cortex-m0 -mthumb
+lm3s6965evb_FLAGS := -mcpu=cortex-m0 $(FIRMWARE_V6M)
 lm3s6965evb_SCENES := cube room spider
 lm3s6965evb_DEFINES := -DTUILE_FEATURES=64 -DTUILE_FORMATS=0x80
 lm3s6965evb_SRC := $(wildcard firmware/cortex_m/*.c) hal/panels/ssd0323.c

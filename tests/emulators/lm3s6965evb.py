@@ -1,0 +1,158 @@
+"""The LM3S6965 board in QEMU: each frame of its panel, as QEMU's own SSD0323 shows it, against the simulator's.
+
+    lm3s6965evb.py test IMAGE --cpu cortex-m0,cortex-m3 ...   compares every frame; faults on purpose must be told apart
+    lm3s6965evb.py show IMAGE --out FOLDER [--plugin LIB]     saves the frames as PNG, and tells instructions of each
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+
+from expected import Simulator
+from frames import Frames, read_wanted
+from picture import Picture, read_ppm, reduce
+from qemu import EmulatorError, Qemu
+
+MAGNIFIED = 4  # QEMU draws a pixel of the panel as a square of 4 x 4, and a level v of 15 as 17 v
+FAULTS = {"hard": 64, "stack": 65, "assert": 66}
+
+
+def look(qemu, path):
+    """The panel's picture as it is."""
+    qemu.screendump(path)
+    return reduce(read_ppm(path), MAGNIFIED)
+
+
+def differ(board, simulated, name, folder):
+    """None, or a line that tells how the two pictures differ; both are then in the folder."""
+    if board == simulated:
+        return None
+    if (board.width, board.height) != (simulated.width, simulated.height):
+        return f"{name}: the board shows {board.width}x{board.height}, the simulator {simulated.width}x{simulated.height}"
+    places = board.differences(simulated)
+    x, y = places[0]
+    paths = [os.path.join(folder, f"{name}-{who}.png") for who in ("board", "simulator")]
+    board.write(paths[0])
+    simulated.write(paths[1])
+    return (f"{name}: {len(places)} of {board.width * board.height} pixels differ, the first at {x},{y}: {board.pixel(x, y)} on the "
+            f"board, {simulated.pixel(x, y)} in the simulator; see {paths[0]} and {paths[1]}")
+
+
+def run_frames(image, cpu, simulator, wanted, count, folder, limit_s):
+    """Faults of one run, as lines; and its Frames."""
+    frames, faults = Frames(), []
+    with Qemu("lm3s6965evb", image, f"frames={count}", cpu, limit_s) as qemu:
+        while (line := qemu.line()) is not None:
+            told = frames.take(line)
+            if not told:
+                continue
+            scene, method, number = told
+            try:
+                seen = look(qemu, os.path.join(qemu.folder.name, "screen.ppm"))
+                fault = differ(seen, simulator.frames(scene, method, count)[number], f"{cpu}-{scene}-{method}-{number}", folder)
+            except ValueError as error:
+                fault = f"{scene} {method} {number}: the screen is no magnified picture: {error}"
+            if fault:
+                faults.append(fault)
+                if len(faults) == 3:
+                    return faults + ["and so on"], frames
+            qemu.go_on()
+        code, complaints = qemu.end()
+        if code:
+            faults.append(f"ended with {code}{qemu.told()}")
+        faults += [f"QEMU: {line}" for line in complaints[:5]]
+    return faults + frames.faults + frames.missing(wanted, count), frames
+
+
+def run_fault(image, cpu, name, limit_s):
+    """A fault on purpose must end the program with its code."""
+    with Qemu("lm3s6965evb", image, f"fault={name}", cpu, limit_s) as qemu:
+        while qemu.line() is not None:
+            pass
+        code, _ = qemu.end()
+        return [] if code == FAULTS[name] else [f"fault={name}: ended with {code}, not {FAULTS[name]}{qemu.told()}"]
+
+
+def test(arguments):
+    os.makedirs(arguments.out, exist_ok=True)
+    wanted = read_wanted(arguments.wanted)
+    simulator = Simulator(arguments.tuile, arguments.models, "ssd0323", os.path.join(arguments.out, "simulator"))
+    failed = False
+    for pair in arguments.cpu.split(","):
+        cpu, image = pair.split(":") if ":" in pair else (pair, arguments.image)
+        try:
+            faults, frames = run_frames(image, cpu, simulator, wanted, arguments.frames, arguments.out, arguments.limit)
+            for name in FAULTS:
+                faults += run_fault(image, cpu, name, arguments.limit)
+            if frames.stack and arguments.stack and frames.stack[0] > arguments.stack:
+                faults.append(f"{frames.stack[0]} bytes of stack were used, but the call graph has at most {arguments.stack}")
+        except EmulatorError as error:
+            faults, frames = [str(error)], None
+        for fault in faults:
+            print(f"{cpu}: {fault}")
+        failed = failed or bool(faults)
+        if frames and not faults:
+            print(f"{cpu}: {sum(frames.shown.values())} frames of {len(frames.shown)} scenes by methods are the simulator's, bit for bit; "
+                  f"stack {frames.stack[0]} of {frames.stack[1]} bytes; faults are told")
+    return 1 if failed else 0
+
+
+def symbols(image, *names):
+    """Addresses of functions."""
+    text = subprocess.run(["arm-none-eabi-nm", image], capture_output=True, text=True, check=True).stdout
+    table = {fields[2]: int(fields[0], 16) for fields in map(str.split, text.splitlines()) if len(fields) == 3}
+    return [table[name] & ~1 for name in names]
+
+
+def show(arguments):
+    os.makedirs(arguments.out, exist_ok=True)
+    more = []
+    if arguments.plugin:
+        first, last = symbols(arguments.image, "frame_begins", "frame_ends")
+        more = ["-plugin", f"file={os.path.abspath(arguments.plugin)},from={first:#x},to={last:#x}"]
+    frames = Frames()
+    cpu = arguments.cpu.split(",")[0]
+    with Qemu("lm3s6965evb", arguments.image, arguments.options, cpu, arguments.limit, more) as qemu:
+        while (line := qemu.line()) is not None:
+            told = frames.take(line)
+            if not told:
+                print(line)
+                continue
+            path = os.path.join(arguments.out, "{}-{}-{:02d}.png".format(*told))
+            look(qemu, os.path.join(qemu.folder.name, "screen.ppm")).write(path)
+            counted = [text.split()[1] for text in qemu.errors if text.startswith("instructions ")]
+            print(line + (f" instructions {counted[-1]}" if counted else "") + f" {path}")
+            qemu.go_on()
+        code, complaints = qemu.end()
+        for text in complaints:
+            if not text.startswith("instructions "):
+                print(text, file=sys.stderr)
+        if code:
+            print(f"ended with {code}{qemu.told()}", file=sys.stderr)
+    return 1 if code else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=("test", "show"))
+    parser.add_argument("image")
+    parser.add_argument("--cpu", default="cortex-m3", help="names of QEMU, each with an image of its own behind a colon or without")
+    parser.add_argument("--wanted", help="the board's list of scenes and methods")
+    parser.add_argument("--tuile", default="build/tuile")
+    parser.add_argument("--models", default="build/firmware/models")
+    parser.add_argument("--frames", type=int, default=8)
+    parser.add_argument("--out", required=True, help="folder for pictures")
+    parser.add_argument("--limit", type=float, default=60, help="seconds of one run")
+    parser.add_argument("--stack", type=int, help="most bytes of stack that the call graph allows")
+    parser.add_argument("--plugin", help="counter of instructions")
+    parser.add_argument("--options", default="", help="of the program, like 'scene=spider frames=4'")
+    arguments = parser.parse_args()
+    try:
+        return (test if arguments.what == "test" else show)(arguments)
+    except (EmulatorError, RuntimeError) as error:
+        print(error, file=sys.stderr)
+        return 1
+
+
+sys.exit(main())
