@@ -204,7 +204,7 @@ objects: $(CORE_OBJ)
 	@sh tests/features.sh $(OBJ)/features $(CC) $(CFLAGS_CORE)
 
 include tests/linux/linux.mk
-include firmware/firmware.mk
+include firmware/firmware.mk tests/emulators/emulators.mk
 
 # ---- figures -------------------------------------------------------------------------------------------------------
 SIZE ?= 320x240

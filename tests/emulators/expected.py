@@ -25,3 +25,18 @@ class Simulator:
                 raise RuntimeError(f"the simulator cannot draw {scene} by {method}: {result.stderr.strip()}")
             self.drawn[key] = [read_ppm(out % frame) for frame in range(count)]
         return self.drawn[key]
+
+
+def differ(board, simulated, name, folder):
+    """None, or a line that tells how the two pictures differ; both are then in the folder."""
+    if board == simulated:
+        return None
+    if (board.width, board.height) != (simulated.width, simulated.height):
+        return f"{name}: the board shows {board.width}x{board.height}, the simulator {simulated.width}x{simulated.height}"
+    places = board.differences(simulated)
+    x, y = places[0]
+    paths = [os.path.join(folder, f"{name}-{who}.png") for who in ("board", "simulator")]
+    board.write(paths[0])
+    simulated.write(paths[1])
+    return (f"{name}: {len(places)} of {board.width * board.height} pixels differ, the first at {x},{y}: {board.pixel(x, y)} on the "
+            f"board, {simulated.pixel(x, y)} in the simulator; see {paths[0]} and {paths[1]}")

@@ -1,5 +1,7 @@
 """The lines of firmware/board/frames.c, checked: which frames came, what was left out, how much stack was used."""
 
+FAULTS = {"hard": 64, "stack": 65, "assert": 66}  # on purpose, and the codes that they end with (board_code_t)
+
 
 class Frames:
     def __init__(self):
@@ -30,10 +32,11 @@ class Frames:
         return None
 
     def missing(self, wanted, count):
-        """Of `wanted`, a list of (scene, method), those of which fewer frames than count came; and those that came unasked."""
+        """Of `wanted`, a list of (scene, method), those of which fewer frames than count came; and those that all came unasked."""
         return ([f"{scene} by {method}: {self.shown.get((scene, method), 0)} of {count} frames" for scene, method in wanted
                  if self.shown.get((scene, method), 0) < count] +
-                [f"{scene} by {method}: not in the board's list" for scene, method in self.shown if (scene, method) not in wanted])
+                [f"{scene} by {method}: not in the board's list" for (scene, method), shown in self.shown.items()
+                 if shown >= count and (scene, method) not in wanted])
 
 
 def read_wanted(path):

@@ -9,34 +9,18 @@ import os
 import subprocess
 import sys
 
-from expected import Simulator
-from frames import Frames, read_wanted
-from picture import Picture, read_ppm, reduce
+from expected import Simulator, differ
+from frames import FAULTS, Frames, read_wanted
+from picture import read_ppm, reduce
 from qemu import EmulatorError, Qemu
 
 MAGNIFIED = 4  # QEMU draws a pixel of the panel as a square of 4 x 4, and a level v of 15 as 17 v
-FAULTS = {"hard": 64, "stack": 65, "assert": 66}
 
 
 def look(qemu, path):
     """The panel's picture as it is."""
     qemu.screendump(path)
     return reduce(read_ppm(path), MAGNIFIED)
-
-
-def differ(board, simulated, name, folder):
-    """None, or a line that tells how the two pictures differ; both are then in the folder."""
-    if board == simulated:
-        return None
-    if (board.width, board.height) != (simulated.width, simulated.height):
-        return f"{name}: the board shows {board.width}x{board.height}, the simulator {simulated.width}x{simulated.height}"
-    places = board.differences(simulated)
-    x, y = places[0]
-    paths = [os.path.join(folder, f"{name}-{who}.png") for who in ("board", "simulator")]
-    board.write(paths[0])
-    simulated.write(paths[1])
-    return (f"{name}: {len(places)} of {board.width * board.height} pixels differ, the first at {x},{y}: {board.pixel(x, y)} on the "
-            f"board, {simulated.pixel(x, y)} in the simulator; see {paths[0]} and {paths[1]}")
 
 
 def run_frames(image, cpu, simulator, wanted, count, folder, limit_s):

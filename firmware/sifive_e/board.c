@@ -1,0 +1,35 @@
+/* SiFive E: an RV32IMAC with 16 KB of RAM, as QEMU has it. It has no panel: the wire of an ILI9341 goes to a file. */
+#include "../board/board.h"
+#include "../board/models.h"
+#include "../board/semihosting.h"
+#include "../board/wire_file.h"
+#include "../../hal/panels/ili9341.h"
+
+#define BLOCK_BYTES (10u * 1024u)
+
+static _Alignas(8) uint8_t block[BLOCK_BYTES];
+
+void *board_block(size_t *size_bytes) {
+    *size_bytes = sizeof block;
+    return block;
+}
+
+const void *board_model(const scene_script_t *script, size_t *size_bytes) { return models_find(script, size_bytes); }
+
+const tuile_display_config_t *board_display(void) {
+    static tuile_bus_t bus;
+    static const tuile_display_config_t config = {.bus = &bus, .panel = &tuile_ili9341};
+
+    if (wire_file_open(&bus, "wire.trace")) { board_park(BOARD_FAILED); }
+    return &config;
+}
+
+void board_tell(const char *line) {
+    if (wire_file_tell(line)) { board_park(BOARD_FAILED); }
+}
+
+void board_shown(void) {} /* the file is looked at when all is over */
+
+void board_options(char *text, size_t size_bytes) { semihosting_options(text, size_bytes); }
+
+void board_park(board_code_t code) { semihosting_exit(code); }
