@@ -42,6 +42,7 @@ scene_bit_cube := 1
 scene_bit_room := 2
 scene_bit_spider := 4
 scene_bit_bunny := 8
+comma := ,
 empty :=
 scene_bits = -DSCENES=\($(subst $(empty) $(empty),+,$(foreach s,$(1),$(scene_bit_$(s))))\)
 

@@ -6,13 +6,12 @@
 
 import argparse
 import os
-import subprocess
 import sys
 
 from expected import Simulator, differ
 from frames import FAULTS, Frames, read_wanted
 from picture import read_ppm, reduce
-from qemu import EmulatorError, Qemu
+from qemu import EmulatorError, Qemu, counted_frames
 
 MAGNIFIED = 4  # QEMU draws a pixel of the panel as a square of 4 x 4, and a level v of 15 as 17 v
 
@@ -82,20 +81,12 @@ def test(arguments):
     return 1 if failed else 0
 
 
-def symbols(image, *names):
-    """Addresses of functions."""
-    text = subprocess.run(["arm-none-eabi-nm", image], capture_output=True, text=True, check=True).stdout
-    table = {fields[2]: int(fields[0], 16) for fields in map(str.split, text.splitlines()) if len(fields) == 3}
-    return [table[name] & ~1 for name in names]
-
-
 def show(arguments):
     os.makedirs(arguments.out, exist_ok=True)
     more = []
     if arguments.plugin:
-        first, last = symbols(arguments.image, "frame_begins", "frame_ends")
-        more = ["-plugin", f"file={os.path.abspath(arguments.plugin)},from={first:#x},to={last:#x}"]
-    frames = Frames()
+        more = counted_frames(arguments.plugin, arguments.image)
+    frames, shown = Frames(), 0
     cpu = arguments.cpu.split(",")[0]
     with Qemu("lm3s6965evb", arguments.image, arguments.options, cpu, arguments.limit, more) as qemu:
         while (line := qemu.line()) is not None:
@@ -105,8 +96,9 @@ def show(arguments):
                 continue
             path = os.path.join(arguments.out, "{}-{}-{:02d}.png".format(*told))
             look(qemu, os.path.join(qemu.folder.name, "screen.ppm")).write(path)
-            counted = [text.split()[1] for text in qemu.errors if text.startswith("instructions ")]
-            print(line + (f" instructions {counted[-1]}" if counted else "") + f" {path}")
+            shown += 1
+            counted = qemu.counted(shown) if arguments.plugin else None
+            print(line + (f" instructions {counted}" if counted else "") + f" {path}")
             qemu.go_on()
         code, complaints = qemu.end()
         for text in complaints:

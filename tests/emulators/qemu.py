@@ -17,6 +17,14 @@ class EmulatorError(Exception):
     pass
 
 
+def counted_frames(plugin, image):
+    """QEMU's options that load tests/emulators/count.c: instructions from frame_begins to frame_ends of firmware/board/frames.c."""
+    text = subprocess.run(["nm", image], capture_output=True, text=True, check=True).stdout
+    table = {fields[2]: int(fields[0], 16) for fields in map(str.split, text.splitlines()) if len(fields) == 3}
+    first, last = (table[name] & ~1 for name in ("frame_begins", "frame_ends"))
+    return ["-plugin", f"file={os.path.abspath(plugin)},from={first:#x},to={last:#x}"]
+
+
 class Qemu:
     """Use as a context: whatever happens, the emulator is gone afterwards."""
 
@@ -41,6 +49,7 @@ class Qemu:
             self.process = subprocess.Popen(command, cwd=self.folder.name, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                             stderr=subprocess.PIPE)
         except FileNotFoundError:
+            self.folder.cleanup()
             raise EmulatorError(f"{program} is not there; `make test-firmware` installs it") from None
         self.qmp = None
         for stream, sink in ((self.process.stdout, self._line), (self.process.stderr, self._error)):
@@ -119,6 +128,15 @@ class Qemu:
                 raise EmulatorError(f"{command}: {answer['error']['desc']}")
             if "return" in answer:
                 return answer["return"]
+
+    def counted(self, number):
+        """Instructions of the frame that was the number-th, from 1, as the plugin has counted them; None when it has not."""
+        for _ in range(100):
+            counts = [line.split()[1] for line in self.errors if line.startswith("instructions ")]
+            if len(counts) >= number:
+                return counts[number - 1]
+            time.sleep(0.01)  # it comes by another pipe
+        return None
 
     def screendump(self, path):
         self.execute("screendump", filename=os.path.abspath(path))

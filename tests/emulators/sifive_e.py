@@ -12,16 +12,14 @@ import sys
 from expected import Simulator, differ
 from frames import FAULTS, Frames, read_wanted
 from picture import read_ppm
-from qemu import EmulatorError, Qemu
+from qemu import EmulatorError, Qemu, counted_frames
 
 PANEL = "ili9341"
 
 
 def run(arguments, options, folder):
     """The lines that were told, what is to be complained of, and the exit code; the pictures are in the folder."""
-    more = []
-    if arguments.plugin:
-        more = ["-plugin", arguments.plugin]
+    more = counted_frames(arguments.plugin, arguments.image) if arguments.plugin else []
     with Qemu("sifive_e", arguments.image, options, None, arguments.limit, more) as qemu:
         while qemu.line() is not None:
             pass
@@ -103,7 +101,7 @@ def main():
     parser.add_argument("--out", required=True, help="folder for pictures")
     parser.add_argument("--limit", type=float, default=60, help="seconds of one run")
     parser.add_argument("--stack", type=int, help="most bytes of stack that the call graph allows")
-    parser.add_argument("--plugin", help="of QEMU, with its options: a counter of instructions")
+    parser.add_argument("--plugin", help="counter of instructions")
     parser.add_argument("--options", default="", help="of the program, like 'scene=spider frames=4'")
     arguments = parser.parse_args()
     try:

@@ -1,0 +1,151 @@
+"""The harness itself: emulators that hang, die or are not there, frames that differ, are missing or come out of turn, broken traces.
+
+    test_harness.py IMAGE WIRE_TRACE FOLDER   IMAGE: the LM3S6965 board's program
+"""
+
+import os
+import subprocess
+import sys
+import time
+import unittest
+
+from expected import differ
+from frames import Frames
+from picture import Picture, read_ppm, reduce
+from qemu import EmulatorError, Qemu
+
+IMAGE, WIRE_TRACE, FOLDER = sys.argv[1:4]
+
+
+class Emulator(unittest.TestCase):
+    def test_a_program_that_waits_for_ever_ends_by_the_limit(self):
+        start = time.monotonic()
+        with Qemu("lm3s6965evb", IMAGE, "frames=2", "cortex-m3", 1.5) as machine, self.assertRaises(EmulatorError) as raised:
+            while machine.line() is not None:
+                pass
+        self.assertIn("no end within 1.5 s", str(raised.exception))
+        self.assertIn("frame cube zbuffer 0", str(raised.exception))  # its last output
+        self.assertLess(time.monotonic() - start, 10)
+        self.assertIsNotNone(machine.process.poll())
+
+    def test_an_emulator_that_dies_is_told_by_its_signal(self):
+        with Qemu("lm3s6965evb", IMAGE, "frames=2", "cortex-m3", 20) as machine:
+            machine.line()
+            machine.process.kill()
+            while machine.line() is not None:
+                pass
+            code, _ = machine.end()
+        self.assertEqual(code, -9)
+
+    def test_a_missing_image_is_complained_of(self):
+        with Qemu("lm3s6965evb", IMAGE + ".none", "", "cortex-m3", 20) as machine:
+            while machine.line() is not None:
+                pass
+            code, complaints = machine.end()
+        self.assertNotEqual(code, 0)
+        self.assertIn(".none", " ".join(complaints))
+
+    def test_a_missing_emulator_is_told_by_name(self):
+        path, os.environ["PATH"] = os.environ["PATH"], ""
+        try:
+            with self.assertRaises(EmulatorError) as raised:
+                Qemu("lm3s6965evb", IMAGE)
+        finally:
+            os.environ["PATH"] = path
+        self.assertIn("qemu-system-arm is not there", str(raised.exception))
+
+
+class Pictures(unittest.TestCase):
+    def test_one_pixel_is_found_and_both_pictures_are_written(self):
+        one = Picture(3, 2, bytes(range(18)))
+        other = Picture(3, 2, bytes(range(18)).replace(b"\x0c", b"\xff"))  # pixel 4: x 1, y 1
+        text = differ(one, other, "pair", FOLDER)
+        self.assertIn("1 of 6 pixels differ, the first at 1,1: (12, 13, 14) on the board, (255, 13, 14) in the simulator", text)
+        for who in ("board", "simulator"):
+            with open(os.path.join(FOLDER, f"pair-{who}.png"), "rb") as file:
+                self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
+        self.assertIsNone(differ(one, Picture(3, 2, bytes(range(18))), "pair", FOLDER))
+
+    def test_sizes_that_differ_are_told(self):
+        self.assertIn("the board shows 3x2", differ(Picture(3, 2, bytes(18)), Picture(2, 3, bytes(18)), "size", FOLDER))
+
+    def test_a_magnified_picture_is_reduced_and_no_other(self):
+        small = [bytes([1, 2, 3]), bytes([4, 5, 6])]
+        row = small[0] * 4 + small[1] * 4
+        self.assertEqual(reduce(Picture(8, 4, row * 4), 4), Picture(2, 1, small[0] + small[1]))
+        for at in (0, 23, 24 * 2 + 5):
+            broken = bytearray(row * 4)
+            broken[at] ^= 1
+            with self.assertRaises(ValueError):
+                reduce(Picture(8, 4, bytes(broken)), 4)
+
+    def test_files_are_read_as_they_were_written(self):
+        picture = Picture(2, 1, b"\n \t123")  # bytes that look like the header's blanks
+        picture.write(os.path.join(FOLDER, "blanks.ppm"))
+        self.assertEqual(read_ppm(os.path.join(FOLDER, "blanks.ppm")), picture)
+
+
+class Lines(unittest.TestCase):
+    WANTED = [("cube", "zbuffer"), ("cube", "tree")]
+
+    def take(self, *lines):
+        frames = Frames()
+        for line in lines:
+            frames.take(line)
+        return frames
+
+    def test_missing_frames_are_told(self):
+        frames = self.take("frame cube zbuffer 0 passes 1", "frame cube zbuffer 1 passes 1", "frame cube tree 0 passes 1")
+        self.assertEqual(frames.missing(self.WANTED, 2), ["cube by tree: 1 of 2 frames"])
+        self.assertEqual(frames.missing(self.WANTED, 1), [])
+
+    def test_frames_that_nobody_lists_are_told(self):
+        self.assertEqual(self.take("frame cube zbuffer 0 passes 1").missing([], 1), ["cube by zbuffer: not in the board's list"])
+
+    def test_frames_out_of_turn_and_errors_are_faults(self):
+        self.assertEqual(len(self.take("frame cube zbuffer 1 passes 1").faults), 1)
+        self.assertEqual(self.take("error cube zbuffer 0 gone").faults, ["error cube zbuffer 0 gone"])
+        self.assertEqual(self.take("nonsense").faults, ["nonsense"])
+
+
+class Trace(unittest.TestCase):
+    """A trace of an ILI9341, by hand."""
+
+    RESET = b"r\1\0\0\0" + b"w\4\0\0\1\0\0\0" + b"r\1\0\0\1" + b"w\4\0\0\x78\0\0\0"
+    AWAKE = b"c\1\0\0\x11" + b"w\4\0\0\x78\0\0\0" + b"c\1\0\0\x3a" + b"d\1\0\0\x55" + b"c\1\0\0\x29"
+    WINDOW = b"c\1\0\0\x2a" + b"d\4\0\0\0\5\0\5" + b"c\1\0\0\x2b" + b"d\4\0\0\0\7\0\7" + b"c\1\0\0\x2c"
+    LINE = b"t\x0f\0\0frame one two 3"
+
+    def run_trace(self, trace, *arguments):
+        return subprocess.run([WIRE_TRACE, *(arguments or ("ili9341", "0", FOLDER))], input=trace, capture_output=True, check=False)
+
+    def test_a_pixel_arrives_where_it_was_sent(self):
+        pictures = []
+        for pixel in (b"\xf8\0", b"\0\x1f"):
+            result = self.run_trace(self.RESET + self.AWAKE + self.WINDOW + b"d\2\0\0" + pixel + self.LINE)
+            self.assertEqual((result.returncode, result.stdout, result.stderr), (0, b"frame one two 3\n", b""))
+            pictures.append(read_ppm(os.path.join(FOLDER, "one-two-03.ppm")))
+        places = pictures[0].differences(pictures[1])  # all else is what the memory holds when power comes up
+        self.assertEqual(len(places), 1)
+        self.assertIn(places[0], [(x, y) for x in (5, 239 - 5) for y in (7, 319 - 7)])  # the glass may lie either way
+        self.assertEqual(pictures[0].pixel(*places[0])[::-1], pictures[1].pixel(*places[0]))  # red and blue
+
+    def test_what_the_chip_refuses_is_an_error(self):
+        for trace in (self.RESET + b"d\1\0\0\x11", self.RESET + self.AWAKE + b"c\1\0\0\x2a" + b"d\3\0\0\0\5\0" + b"c\1\0\0\x2c"):
+            result = self.run_trace(trace)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(b"ILI9341", result.stderr)
+
+    def test_broken_traces_are_errors(self):
+        for trace in (b"", b"c", b"c\2\0\0\1", b"x\1\0\0\0", b"w\3\0\0\0\0\0", b"r\2\0\0\0\0"):
+            result = self.run_trace(trace)
+            self.assertEqual(result.returncode, 1, trace)
+            self.assertEqual(result.stderr.count(b"\n"), 1)
+
+    def test_wrong_arguments_are_told(self):
+        self.assertEqual(self.run_trace(b"", "vt100", "0", FOLDER).returncode, 2)
+        self.assertEqual(self.run_trace(b"", "ili9341", "45", FOLDER).returncode, 2)
+
+
+os.makedirs(FOLDER, exist_ok=True)
+unittest.main(argv=sys.argv[:1])
