@@ -45,17 +45,18 @@ unsigned long guest_number(const char *name, const char *end, const char *word) 
     return number;
 }
 
-void guest_assert_same_picture(const char *path, const char *other_path) {
-    sim_picture_t picture, other, shown;
+void guest_assert_same_picture(const char *path, const char *other_path, uint32_t kept) {
+    sim_picture_t picture, other;
     sim_error_t error = {""};
     size_t count = 0;
 
-    if (sim_picture_read(&picture, path, &error) || sim_picture_read(&other, other_path, &error) ||
-        sim_picture_difference(&picture, &other, &shown, &count, &error)) {
-        fail_msg("%s", error.text);
+    if (sim_picture_read(&picture, path, &error) || sim_picture_read(&other, other_path, &error)) { fail_msg("%s", error.text); }
+    assert_int_equal(picture.width, other.width);
+    assert_int_equal(picture.height, other.height);
+    for (size_t i = 0; i < (size_t)picture.width * picture.height * 3; i++) {
+        count += ((picture.rgb[i] ^ other.rgb[i]) & (kept >> (16 - 8 * (i % 3)) & 255u)) != 0;
     }
     sim_picture_free(&picture);
     sim_picture_free(&other);
-    sim_picture_free(&shown);
-    if (count > 0) { fail_msg("%zu pixels of %s are not those of %s", count, path, other_path); }
+    if (count > 0) { fail_msg("%zu components of %s are not those of %s", count, path, other_path); }
 }

@@ -3,6 +3,8 @@
 #ifndef TESTS_LINUX_GUEST_H
 #define TESTS_LINUX_GUEST_H
 
+#include <stdint.h>
+
 /* A file of the shared folder's out; valid until the next call. */
 const char *guest_path(const char *name, const char *end);
 
@@ -16,7 +18,8 @@ void guest_assert_code(const char *name, int code);
 /* The number behind a word. */
 unsigned long guest_number(const char *name, const char *end, const char *word);
 
-/* That two pictures are the same, pixel by pixel. */
-void guest_assert_same_picture(const char *path, const char *other_path);
+/* That two pictures are the same, pixel by pixel, in the bits of red, green and blue that are kept: FFFFFF, or what a format has.
+ */
+void guest_assert_same_picture(const char *path, const char *other_path, uint32_t kept);
 
 #endif

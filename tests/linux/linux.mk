@@ -52,7 +52,7 @@ LINUX_PROGRAMS := $(TUILE) $(OBJ)/linux/usb_device $(OBJ)/linux/drm_pattern
 .PHONY: linux-share test-linux test-gud-kernel
 linux-share: $(LINUX_PROGRAMS)
 	@mkdir -p $(LINUX)/share/bin $(LINUX)/share/models
-	@cp tests/models/room.* $(LINUX)/share/models/
+	@cp tests/models/room.* tests/models/beams.* $(LINUX)/share/models/
 	@cp $^ $(LINUX)/share/bin/
 	@sh tests/linux/libraries.sh $(dir $(SYSROOT)) $(LINUX)/share/lib $^
 

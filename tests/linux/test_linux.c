@@ -5,8 +5,9 @@
 #include "../support/command.h"
 #include "guest.h"
 
-/* A picture from the guest is what the simulator here draws for the same arguments; of several frames, the one that is named. */
-static void assert_simulated(const char *name, const char *arguments, int rotation, unsigned frame) {
+/* A picture from the guest is what the simulator here draws for the same arguments, in the bits that are kept; of several frames,
+ * the one that is named. */
+static void assert_simulated(const char *name, const char *arguments, int rotation, unsigned frame, uint32_t kept) {
     char line[1024], expected_path[512];
     sim_picture_t expected, glass;
     sim_error_t error = {""};
@@ -25,7 +26,7 @@ static void assert_simulated(const char *name, const char *arguments, int rotati
     }
     sim_picture_free(&expected);
     sim_picture_free(&glass);
-    guest_assert_same_picture(guest_path(name, ".ppm"), line);
+    guest_assert_same_picture(guest_path(name, ".ppm"), line, kept);
 }
 
 /* The same for what a panel on the pins showed last; nothing was wrong in any session. */
@@ -34,7 +35,7 @@ static void assert_session(unsigned session, const char *arguments, int rotation
 
     guest_assert_text("panels", ".err", "");
     (void)snprintf(name, sizeof name, "panel-%u", session);
-    assert_simulated(name, arguments, rotation, 0);
+    assert_simulated(name, arguments, rotation, 0, 0xFFFFFF);
 }
 
 static void assert_failed_well(const char *step, const char *words, const char *other_words) {
@@ -124,6 +125,67 @@ static void test_an_interrupt_leaves_the_panel_dark_and_the_lines_free(void **st
     assert_session(5, "card --panel st7735-80x160", 0);
 }
 
+/* The same for what a USB display showed last, if it refused nothing: the 16 bits that went over the wire, which each model widens
+ * in its own way. */
+static void assert_usb(const char *name, const char *arguments, unsigned frame) {
+    char device[64];
+
+    (void)snprintf(device, sizeof device, "%s-device", name);
+    guest_assert_code(name, 0);
+    guest_assert_code(device, 0);
+    guest_assert_text(device, ".err", "");
+    assert_simulated(device, arguments, 0, frame, 0xF8FCF8);
+}
+
+/* 160 x 120 x 2 bytes a frame. */
+static void test_two_frames_by_way_of_the_kernels_usb(void **state) {
+    (void)state;
+    assert_usb("gud", ROOM " --frames 2 --spin 20 --size 160x120 --format rgb565le", 1);
+    assert_int_equal(guest_number("gud-device", ".out", "pixel bytes "), 2 * 160 * 120 * 2);
+    assert_true(guest_number("gud-device", ".out", "updates ") > 2); /* parts of the frames */
+    assert_true(guest_number("gud-device", ".out", "status reads ") > 0);
+}
+
+/* The second frame is the simulator's though only parts of it were sent. */
+static void test_only_what_has_changed_is_sent(void **state) {
+    unsigned long bytes;
+
+    (void)state;
+    assert_usb("gud-parts", "render tests/models/beams.obj --frames 2 --spin 5 --size 160x120 --format rgb565le", 1);
+    bytes = guest_number("gud-parts-device", ".out", "pixel bytes ");
+    assert_true(bytes > 160 * 120 * 2 && bytes < 2 * 160 * 120 * 2);
+}
+
+static void test_compressed(void **state) {
+    (void)state;
+    assert_usb("gud-lz4", ROOM " --size 160x120 --format rgb565le", 0);
+    assert_int_equal(guest_number("gud-lz4-device", ".out", "pixel bytes "), 160 * 120 * 2);
+    assert_true(guest_number("gud-lz4-device", ".out", "bulk bytes ") < 160 * 120 * 2);
+}
+
+static void test_a_photo_frame(void **state) {
+    (void)state;
+    assert_usb("ax206", ROOM " --size 240x160 --format rgb565le", 0);
+}
+
+static void test_unplugged_within_a_frame(void **state) {
+    (void)state;
+    assert_failed_well("gud-unplugged", "gone", "usb");
+    assert_int_equal(guest_number("gud-unplugged-device", ".out", "bulks "), 3);
+}
+
+static void test_a_device_that_hangs(void **state) {
+    (void)state;
+    assert_failed_well("gud-hung", "timed out", "usb");
+    assert_int_equal(guest_number("gud-hung-device", ".out", "unlinks "), 1); /* taken back, once */
+}
+
+static void test_no_usb_display(void **state) {
+    (void)state;
+    assert_failed_well("gud-none", "no GUD display", NULL);
+    assert_failed_well("gud-denied", "ermission", "60-tuile.rules");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_frame_on_a_panel_with_offsets),
@@ -135,6 +197,13 @@ int main(void) {
         cmocka_unit_test(test_lines_in_use),
         cmocka_unit_test(test_no_permission),
         cmocka_unit_test(test_an_interrupt_leaves_the_panel_dark_and_the_lines_free),
+        cmocka_unit_test(test_two_frames_by_way_of_the_kernels_usb),
+        cmocka_unit_test(test_only_what_has_changed_is_sent),
+        cmocka_unit_test(test_compressed),
+        cmocka_unit_test(test_a_photo_frame),
+        cmocka_unit_test(test_unplugged_within_a_frame),
+        cmocka_unit_test(test_a_device_that_hangs),
+        cmocka_unit_test(test_no_usb_display),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
