@@ -261,6 +261,23 @@ static void test_status_that_belongs_to_another_command(void **state) {
     model->destroy(model);
 }
 
+static void test_frame_without_an_endpoint_to_the_host(void **state) {
+    sim_usb_t *model = sim_ax206_create(NULL, NULL);
+    uint8_t descriptors[64];
+    tuile_ax206_t frame;
+
+    (void)state;
+    memcpy(descriptors, model->descriptors, model->descriptors_bytes);
+    assert_int_equal(descriptors[18 + 9 + 9 + 7 + 2], 0x81);
+    descriptors[18 + 9 + 9 + 7 + 2] = 0x02;
+    model->descriptors = descriptors;
+    (void)mock_usb_plug(1, model);
+    assert_int_equal(tuile_ax206_open(&frame, NULL), TUILE_HAL_UNSUPPORTED);
+    assert_string_equal(frame.error_text, "usb 1-2: AX206 frame: no interface with the bulk endpoints that it needs");
+    mock_usb_clear();
+    model->destroy(model);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_pixels_in_windows_and_pieces, mock_usb_set_up),
@@ -272,6 +289,7 @@ int main(void) {
         cmocka_unit_test_setup(test_which_of_two, mock_usb_set_up),
         cmocka_unit_test_setup(test_command_that_fails_says_so, mock_usb_set_up),
         cmocka_unit_test_setup(test_status_that_belongs_to_another_command, mock_usb_set_up),
+        cmocka_unit_test_setup(test_frame_without_an_endpoint_to_the_host, mock_usb_set_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -111,6 +111,18 @@ static void test_long_transfers_are_cut_by_libusb(void **state) {
     }
 }
 
+/* 1100 x 1000 x 4 bytes in updates of at most 4 MB: 953 rows of 4400 bytes, then 47. */
+static void test_large_pictures_go_in_several_updates(void **state) {
+    gud_stand_t stand;
+
+    (void)state;
+    gud_stand_start(&stand, &(sim_gud_config_t){.width = 1100, .height = 1000}, TUILE_WIRE_XRGB8888, 0);
+    gud_stand_draw(&stand, &(usb_card_way_t){.seed = 22}, 0);
+    assert_int_equal(sim_gud_counts(stand.model)->updates, 2);
+    assert_int_equal(mock_usb_state(stand.device)->largest_bytes, 953 * 4400);
+    gud_stand_finish(&stand);
+}
+
 static void test_write_returns_while_pixels_are_on_their_way(void **state) {
     uint8_t pixels[2 * 16 * 10] = {0};
     gud_stand_t stand;
@@ -291,6 +303,7 @@ int main(void) {
         cmocka_unit_test_setup(test_partial_update, mock_usb_set_up),
         cmocka_unit_test_setup(test_windows_are_cut_at_the_devices_buffer, mock_usb_set_up),
         cmocka_unit_test_setup(test_long_transfers_are_cut_by_libusb, mock_usb_set_up),
+        cmocka_unit_test_setup(test_large_pictures_go_in_several_updates, mock_usb_set_up),
         cmocka_unit_test_setup(test_write_returns_while_pixels_are_on_their_way, mock_usb_set_up),
         cmocka_unit_test_setup(test_lz4_pays_on_flat_pictures_only, mock_usb_set_up),
         cmocka_unit_test_setup(test_lz4_in_pieces_and_cut_at_the_devices_buffer, mock_usb_set_up),

@@ -320,7 +320,9 @@ static void test_several_displays_by_serial_and_by_place(void **state) {
     usb_card_check(models[2], displays[2].wire, &(usb_card_way_t){.seed = 82}, 0);
     assert_int_equal(tuile_gud_open(&other, &(tuile_gud_config_t){.serial = "A"}), TUILE_HAL_NOT_FOUND);
     assert_string_equal(other.error_text, "usb: no GUD display is attached that has the serial number A");
+    assert_int_equal(tuile_gud_open(&other, &(tuile_gud_config_t){.serial = "B23"}), TUILE_HAL_NOT_FOUND);
     assert_int_equal(tuile_gud_open(&other, &(tuile_gud_config_t){.bus = 1, .address = 9}), TUILE_HAL_NOT_FOUND);
+    assert_int_equal(tuile_gud_open(&other, &(tuile_gud_config_t){.bus = 2, .address = 2}), TUILE_HAL_NOT_FOUND);
     for (unsigned i = 0; i < 3; i++) {
         tuile_gud_close(&guds[i]);
         assert_string_equal(models[i]->fault.text, "");
@@ -458,6 +460,49 @@ static void test_waiting_for_a_display(void **state) {
     second->destroy(second);
 }
 
+/* As long as the hub has not noticed, transfers to a device that was pulled out fail or stall: the status that is asked for tells.
+ */
+static void test_unplugged_in_a_transfer(void **state) {
+    static const mock_usb_fault_t faults[] = {MOCK_USB_PROTO, MOCK_USB_STALL};
+
+    (void)state;
+    for (size_t i = 0; i < CHECK_COUNT(faults); i++) {
+        for (unsigned urb = 1; urb <= 2; urb++) { /* SET_BUFFER, pixels */
+            gud_stand_t stand;
+            gud_stand_start(&stand, &(sim_gud_config_t){.width = 16, .height = 8}, 0, 0);
+            mock_usb_state(stand.device)->fault = faults[i];
+            mock_usb_state(stand.device)->fault_at = mock_usb_state(stand.device)->submitted + urb;
+            mock_usb_state(stand.device)->then_gone = true;
+            assert_int_equal(usb_card_draw(&stand.display, &(usb_card_way_t){.seed = 90}), TUILE_HAL_GONE);
+            assert_string_equal(stand.gud.error_text, urb == 1 ? "usb 1-2: SET_BUFFER: the device is gone, open it anew"
+                                                               : "usb 1-2: pixels: the device is gone, open it anew");
+            assert_int_equal(tuile_display_resume(&stand.display), TUILE_HAL_GONE);
+            gud_stand_finish(&stand);
+        }
+    }
+}
+
+static void test_unplugged_and_plugged_in_again(void **state) {
+    gud_stand_t stand;
+    sim_usb_t *first;
+
+    (void)state;
+    gud_stand_start(&stand, &(sim_gud_config_t){.width = 16, .height = 8}, 0, 0);
+    gud_stand_draw(&stand, &(usb_card_way_t){.seed = 91}, 0);
+    mock_usb_unplug(stand.device);
+    assert_int_equal(usb_card_draw(&stand.display, &(usb_card_way_t){.seed = 92}), TUILE_HAL_GONE);
+    assert_int_equal(tuile_display_close(&stand.display), 0);
+    tuile_gud_close(&stand.gud);
+    assert_int_equal(tuile_gud_open(&stand.gud, NULL), TUILE_HAL_NOT_FOUND);
+    assert_int_equal(tuile_gud_wait_for(NULL, 0), TUILE_HAL_TIMEOUT);
+    first = stand.model;
+    mock_usb_clear();
+    first->destroy(first);
+    gud_stand_start(&stand, &(sim_gud_config_t){.width = 16, .height = 8}, 0, 0);
+    gud_stand_draw(&stand, &(usb_card_way_t){.seed = 93}, 0);
+    gud_stand_finish(&stand);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_modes, mock_usb_set_up),
@@ -477,6 +522,8 @@ int main(void) {
         cmocka_unit_test_setup(test_display_that_another_program_has, mock_usb_set_up),
         cmocka_unit_test_setup(test_no_permission_names_the_rules, mock_usb_set_up),
         cmocka_unit_test_setup(test_waiting_for_a_display, mock_usb_set_up),
+        cmocka_unit_test_setup(test_unplugged_in_a_transfer, mock_usb_set_up),
+        cmocka_unit_test_setup(test_unplugged_and_plugged_in_again, mock_usb_set_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -79,13 +79,14 @@ static void test_descriptors_and_strings(void **state) {
     (void)state;
     check_answer(usb, "80 06 00 01 00 00 12 00", "12 01 00 02 00 00 00 40 50 1D 4D 61 00 01 01 02 03 01");
     check_answer(usb, "80 06 00 02 00 00 FF 00",
-                 "09 02 22 00 02 01 00 80 FA 09 04 00 00 00 03 00 00 00 09 04 01 00 01 FF 00 00 00 07 05 03 02 40 00 00");
-    check_answer(usb, "80 06 00 02 00 00 09 00", "09 02 22 00 02 01 00 80 FA");
+                 "09 02 29 00 02 01 00 80 FA 09 04 00 00 01 08 00 00 00 07 05 0F 02 40 00 00 "
+                 "09 04 01 00 01 FF 00 00 00 07 05 03 02 40 00 00");
+    check_answer(usb, "80 06 00 02 00 00 09 00", "09 02 29 00 02 01 00 80 FA");
     check_answer(usb, "80 06 00 03 00 00 FF 00", "04 03 09 04");
     check_answer(usb, "80 06 03 03 09 04 FF 00", "06 03 41 00 31 00");
     check_answer(usb, "80 00 00 00 00 00 02 00", "00 00");
     check_answer(usb, "80 08 00 00 00 00 01 00", "01");
-    assert_int_equal(usb->descriptors_bytes, 18 + 34);
+    assert_int_equal(usb->descriptors_bytes, 18 + 41);
     assert_string_equal(usb->fault.text, "");
     usb->destroy(usb);
 }

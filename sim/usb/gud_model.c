@@ -30,7 +30,7 @@ enum { TYPE_IN = 0xC1, TYPE_OUT = 0x41 };
 enum { FLAG_STATUS_ON_SET = 1, FLAG_FULL_UPDATE = 2 };
 enum { PROPERTY_BACKLIGHT = 12, PROPERTY_ROTATION = 50 };
 enum { DISPLAY_BYTES = 30, MODE_BYTES = 24, CONNECTOR_BYTES = 5, PROPERTY_BYTES = 10, BUFFER_BYTES = 25, STATE_BYTES = 26 };
-enum { ANSWER_MAX_BYTES = 2048, DESCRIPTORS_MAX_BYTES = 18 + 9 + 9 * 256 + 7 };
+enum { ANSWER_MAX_BYTES = 2048, DESCRIPTORS_MAX_BYTES = 18 + 9 + 16 * 256 };
 
 #define MAGIC 0x1D50614Du
 #define FIRST_BACKLIGHT 50
@@ -497,7 +497,7 @@ static void destroy(sim_usb_t *usb) {
 
 static void describe(sim_gud_t *gud) {
     const sim_gud_config_t *config = &gud->config;
-    const uint32_t total = 9u + 9u * (config->interface + 1u) + 7u;
+    const uint32_t total = 9u + 16u * (config->interface + 1u);
     uint8_t *to = gud->descriptors;
 
     memcpy(to, (const uint8_t[8]){18, 1, 0x00, 0x02, 0, 0, 0, 64}, 8);
@@ -508,8 +508,9 @@ static void describe(sim_gud_t *gud) {
     to = put16(to + 2, total);
     memcpy(to, (const uint8_t[5]){(uint8_t)(config->interface + 1), 1, 0, 0x80, 250}, 5);
     to += 5;
-    for (unsigned i = 0; i < config->interface; i++, to += 9) { /* another class's, in front of it */
-        memcpy(to, (const uint8_t[9]){9, 4, (uint8_t)i, 0, 0, 3, 0, 0, 0}, 9);
+    for (unsigned i = 0; i < config->interface;
+         i++, to += 16) { /* another class's, in front of it, with an endpoint like its own */
+        memcpy(to, (const uint8_t[16]){9, 4, (uint8_t)i, 0, 1, 8, 0, 0, 0, 7, 5, (uint8_t)(15 - i % 8u), 2, 64}, 16);
     }
     memcpy(to, (const uint8_t[9]){9, 4, config->interface, 0, 1, 0xFF, 0, 0, 0}, 9);
     to += 9;

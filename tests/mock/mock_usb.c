@@ -127,6 +127,7 @@ static int reap(mock_usb_t *device, UMockdevIoctlData *to) {
     } else if (!urb.discarded) {
         if (urb.buffer) { (void)umockdev_ioctl_data_reload(urb.buffer, NULL); }
         status = transfer(device, &urb, &moved);
+        if (urb.fault != MOCK_USB_FINE && device->state.then_gone) { device->state.gone = true; }
         if (urb.buffer) { umockdev_ioctl_data_update(urb.buffer, 0, urb.buffer->data, urb.buffer->data_len); }
     }
     umockdev_ioctl_data_update(urb.data, offsetof(struct usbdevfs_urb, status), (guint8 *)&status, sizeof status);

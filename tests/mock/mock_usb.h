@@ -34,6 +34,7 @@ typedef enum mock_usb_kernel {
 typedef struct mock_usb_state {
     mock_usb_fault_t fault;
     unsigned fault_at; /* the URB that it befalls, from 1 */
+    bool then_gone;    /* and from then on the device is gone */
     bool struck;       /* it has befallen one that it made a difference to */
     bool out;          /* that one's direction */
 
