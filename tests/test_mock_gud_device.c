@@ -405,6 +405,22 @@ static void test_display_that_another_program_has(void **state) {
     gud_stand_finish(&stand);
 }
 
+/* The first that can be had, and no word about the one that could not. */
+static void test_display_beside_one_that_another_program_has(void **state) {
+    sim_usb_t *taken = sim_gud_create(&(sim_gud_config_t){.width = 8, .height = 8}, NULL);
+    gud_stand_t stand = {0};
+
+    (void)state;
+    mock_usb_state(mock_usb_plug(1, taken))->busy = true;
+    stand.model = sim_gud_create(&(sim_gud_config_t){.width = 16, .height = 8}, NULL);
+    stand.device = mock_usb_plug(2, stand.model);
+    assert_int_equal(tuile_gud_open(&stand.gud, NULL), 0);
+    assert_int_equal(stand.gud.width, 16);
+    assert_string_equal(stand.gud.error_text, "");
+    gud_stand_finish(&stand);
+    taken->destroy(taken);
+}
+
 static int open_as_nobody(void) {
     tuile_gud_t gud;
 
@@ -520,6 +536,7 @@ int main(void) {
         cmocka_unit_test_setup(test_what_does_not_answer_as_a_gud_display, mock_usb_set_up),
         cmocka_unit_test_setup(test_kernel_driver_is_detached_and_given_back, mock_usb_set_up),
         cmocka_unit_test_setup(test_display_that_another_program_has, mock_usb_set_up),
+        cmocka_unit_test_setup(test_display_beside_one_that_another_program_has, mock_usb_set_up),
         cmocka_unit_test_setup(test_no_permission_names_the_rules, mock_usb_set_up),
         cmocka_unit_test_setup(test_waiting_for_a_display, mock_usb_set_up),
         cmocka_unit_test_setup(test_unplugged_in_a_transfer, mock_usb_set_up),

@@ -444,10 +444,9 @@ static void test_gud_status_on_set(void **state) {
 
 static void test_gud_that_contradicts_itself(void **state) {
     static const sim_gud_config_t configs[] = {
-        {.formats = {0x02}},        {.connectors = 3},
-        {.rotations = 2},           {.rotations = 17},
-        {.edid_bytes = 100},        {.full_update = true, .lz4 = true},
-        {.width = 16, .height = 0}, {.width = 16385, .height = 1},
+        {.formats = {0x02}},        {.connectors = 3},          {.rotations = 2},
+        {.rotations = 17},          {.edid_bytes = 100},        {.full_update = true, .lz4 = true},
+        {.width = 16, .height = 0}, {.width = 0, .height = 16}, {.width = 16385, .height = 1},
     };
 
     (void)state;

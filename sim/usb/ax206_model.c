@@ -123,8 +123,10 @@ static int data_in(sim_ax206_t *frame, uint8_t *bytes, size_t length) {
 }
 
 static int status(sim_ax206_t *frame, uint8_t *bytes, size_t length) {
+    static const uint8_t signature[4] = {'U', 'S', 'B', 'S'};
+
     if (length < STATUS_BYTES) { return REFUSE(frame, "the status is read into %zu bytes", length); }
-    memcpy(bytes, "USBS", 4);
+    memcpy(bytes, signature, sizeof signature);
     memcpy(bytes + 4, frame->tag, 4);
     for (unsigned i = 0; i < 4; i++) { /* what was left of the data */
         bytes[8 + i] = (uint8_t)((frame->expected - frame->moved) >> 8 * i);

@@ -63,8 +63,7 @@ typedef struct sim_gud {
     uint8_t *memory; /* 8-bit red, green, blue, in rows of the framebuffer that is seen */
 } sim_gud_t;
 
-/* A member at the beginning, hence the casts. */
-static sim_gud_t *gud_of(sim_usb_t *usb) { return (sim_gud_t *)usb; }
+static sim_gud_t *gud_of(sim_usb_t *usb) { return (sim_gud_t *)usb; } /* a member at the beginning, hence the casts */
 static const sim_gud_t *gud_of_const(const sim_usb_t *usb) { return (const sim_gud_t *)usb; }
 
 #define REFUSE(gud, code, ...) ((gud)->status = (code), sim_usb_refuse(&(gud)->usb, __VA_ARGS__))
@@ -547,9 +546,10 @@ static int settle_config(sim_gud_t *gud, sim_error_t *error) {
         if (mode[0] > gud->most_width) { gud->most_width = mode[0]; }
         if (mode[1] > gud->most_height) { gud->most_height = mode[1]; }
     }
-    if (config->connectors > SIM_GUD_CONNECTORS_MAX || (config->rotations && !(config->rotations & 1u)) || config->rotations > 15 ||
-        config->edid_bytes > ANSWER_MAX_BYTES || config->edid_bytes % 128u || (config->full_update && config->lz4)) {
-        return sim_fail(error, "a GUD display that contradicts itself: connectors, rotations, EDID or LZ4 of whole frames");
+    if (!gud->most_width || !gud->most_height || config->connectors > SIM_GUD_CONNECTORS_MAX ||
+        (config->rotations && !(config->rotations & 1u)) || config->rotations > 15 || config->edid_bytes > ANSWER_MAX_BYTES ||
+        config->edid_bytes % 128u || (config->full_update && config->lz4)) {
+        return sim_fail(error, "a GUD display that contradicts itself: modes, connectors, rotations, EDID or LZ4 of whole frames");
     }
     return 0;
 }
@@ -563,11 +563,10 @@ sim_usb_t *sim_gud_create(const sim_gud_config_t *config, sim_error_t *error) {
         return NULL;
     }
     if (config) { gud->config = *config; }
-    if (settle_config(gud, error)) {
+    if (settle_config(gud, error) || (pixels = (size_t)gud->most_width * gud->most_height) == 0) {
         destroy(&gud->usb);
         return NULL;
     }
-    pixels = (size_t)gud->most_width * gud->most_height;
     gud->transfer = malloc(4u * pixels);
     gud->pixels = malloc(4u * pixels);
     gud->memory = malloc(3u * pixels);
