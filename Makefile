@@ -179,8 +179,9 @@ check: $(TESTS) $(GPIOD2_TESTS) $(FUZZERS) $(TUILE) $(SPIDER) $(BUNNY_6000)
 	@$(call RUN_TESTS,$(FUZZERS))
 	@$(call RUN_TESTS,$(TESTS) $(GPIOD2_TESTS))
 
-test: ## builds and passes everything: gcc, sanitizers, clang
+test: ## builds and passes everything: gcc, emulated boards, sanitizers, clang
 	$(MAKE) --no-print-directory check objects
+	$(MAKE) --no-print-directory test-firmware
 	$(MAKE) --no-print-directory check VARIANT=asan
 	$(MAKE) --no-print-directory test-clang
 

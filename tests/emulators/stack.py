@@ -126,14 +126,20 @@ def line_of(place, cache={}):
     return cache[path][int(number) - 1]
 
 
-def assigned(graph, fields, targets, line):
+def fields_called(line):
+    """Names of the fields that a source line may call: x->field(...), or, of a choice, (x->field ? x->field : ...)(...)."""
+    return set(CALL_FIELD.findall(line)) | (set(re.findall(r"(?:->|\.)(\w+)", line)) if ")(" in line else set())
+
+
+def assigned(graph, fields, targets, line, path):
     """The functions that the pointers of a source line can be."""
-    reached = set()
-    for field in CALL_FIELD.findall(line):
-        if "." + field in targets:
-            continue
-        reached |= {name for path, word in fields.get(field, ()) for name in (f"{path}:{word}", word) if name in graph.bytes}
-    return reached
+    words = set()
+    if ")(" in line:  # a choice may name functions
+        words = {(path, word) for word in re.findall(r"(?<![\w>.])([A-Za-z_]\w*)\b(?!\()", line)}
+    for field in fields_called(line):
+        if "." + field not in targets:
+            words |= fields.get(field, set())
+    return {name for at, word in words for name in (f"{at}:{word}", word) if name in graph.bytes}
 
 
 def resolve(graph, fields, targets, present):
@@ -145,8 +151,8 @@ def resolve(graph, fields, targets, present):
         if said is not None and said[:1] != ["not"]:
             reached = {name for name in graph.bytes if any(fnmatch.fnmatchcase(base(name), target) for target in said)}
         else:
-            reached = {name for name in assigned(graph, fields, targets, line) if base(name) not in (said or [])}
-        known = said is not None or any("." + field in targets or field in fields for field in CALL_FIELD.findall(line))
+            reached = {name for name in assigned(graph, fields, targets, line, place.rsplit(":", 1)[0]) if base(name) not in (said or [])}
+        known = said is not None or reached or any("." + field in targets or field in fields for field in fields_called(line))
         if not known or (said and said[0] != "not" and not reached):
             graph.faults.append(f"{base(caller)}: what does the pointer call at {place}?    {line.strip()}")
         graph.calls[caller] |= reached

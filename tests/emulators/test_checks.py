@@ -24,6 +24,13 @@ static void far_away(int a) { volatile char room[400]; room[0] = (char)a; seen =
 void reset(void) { seen = raster(seen) + hal(seen); far_away(0);
     table.unheard(1); }
 """
+CHOICE = MAIN + """typedef struct { void (*told)(int); } table_t; table_t table;
+static void far_away(int a) { volatile char room[400]; room[0] = (char)a; seen = room[0]; }
+static void near_by(int a) { volatile char room[40]; room[0] = (char)a; seen = room[0]; }
+void set(void); void set(void) { table.told = near_by; }
+void reset(void) { seen = raster(seen) + hal(seen); set();
+    (table.told ? table.told : far_away)(1); }
+"""
 RECURSION = MAIN + """static int again(int a) { volatile char room[16]; room[0] = (char)a; return a ? again(a - 1) + room[0] : 0; }
 void reset(void) { seen = raster(seen) + hal(seen) + again(seen); }
 """
@@ -111,6 +118,9 @@ def check_stacks(folder):
     expect("a pointer that is told", stack_check(pointer, write(folder, "told", "reset: far_away\n"), "--room", "500"), None)
     expect("a pointer that is told, in too little room", stack_check(pointer, write(folder, "told", "reset: far_away\n"), "--room", "400"), "more")
     expect("a pointer to a function that is not there", stack_check(pointer, write(folder, "told", "reset: gone\n")), "what does the pointer call")
+    choice = build(folder, "choice", CHOICE)
+    expect("a choice of pointers", stack_check(choice, nothing, "--room", "500"), None)
+    expect("a choice of pointers, in too little room", stack_check(choice, nothing, "--room", "400"), "more")
     recursion = build(folder, "recursion", RECURSION)
     expect("recursion", stack_check(recursion, nothing), "recursion without a stated depth: again -> again")
     expect("recursion of a depth", stack_check(recursion, write(folder, "depth", "recursion again 10\n"), "--room", "400"), None)
