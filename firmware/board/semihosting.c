@@ -12,7 +12,7 @@ enum {
 
 #if defined(__riscv)
 /* Three instructions tell a request; they must be uncompressed and lie in one page: RISC-V Semihosting 0.2, chapter 1. */
-static intptr_t request(uintptr_t operation, const void *arguments) {
+static intptr_t ask(uintptr_t operation, const void *arguments) {
     register uintptr_t a0 __asm__("a0") = operation;
     register const void *a1 __asm__("a1") = arguments;
 
@@ -29,7 +29,7 @@ static intptr_t request(uintptr_t operation, const void *arguments) {
     return (intptr_t)a0;
 }
 #else
-static intptr_t request(uintptr_t operation, const void *arguments) {
+static intptr_t ask(uintptr_t operation, const void *arguments) {
     register uintptr_t r0 __asm__("r0") = operation;
     register const void *r1 __asm__("r1") = arguments;
 
@@ -37,6 +37,19 @@ static intptr_t request(uintptr_t operation, const void *arguments) {
     return (intptr_t)r0;
 }
 #endif
+
+static volatile bool asking;
+
+bool semihosting_asking(void) { return asking; }
+
+static intptr_t request(uintptr_t operation, const void *arguments) {
+    intptr_t answer;
+
+    asking = true;
+    answer = ask(operation, arguments);
+    asking = false;
+    return answer;
+}
 
 void semihosting_exit(uint32_t code) {
     const uintptr_t block[2] = {APPLICATION_EXIT, code};

@@ -1,12 +1,16 @@
 /* What a debugger or an emulator does for a program that asks for it: Arm's semihosting, which RISC-V has taken over. Operations
  * and their blocks of arguments: Arm, Semihosting for AArch32 and AArch64, release 3, chapter 6.
  *
- * Without somebody who answers, the request is a fault on Arm, and stops a RISC-V. */
+ * Without somebody who answers, the request is a fault on Arm and a trap on RISC-V: semihosting_asking tells the handler. */
 #ifndef TUILE_FIRMWARE_SEMIHOSTING_H
 #define TUILE_FIRMWARE_SEMIHOSTING_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+/* A request is under way. */
+bool semihosting_asking(void);
 
 _Noreturn void semihosting_exit(uint32_t code);
 

@@ -4,6 +4,7 @@
  * The linker script lays the stack out below all data, so that a stack that outgrows its room leaves RAM, which is a fault, before
  * it spoils anything; painted words at its end tell also where no fault comes. */
 #include "../board/board.h"
+#include "../board/semihosting.h"
 #include "../board/stack.h"
 
 #include <stdint.h>
@@ -50,13 +51,10 @@ void reset(void) {
     board_park(BOARD_DONE);
 }
 
-/* Parking asks a debugger, and that is a fault itself where there is none: it ends here for the second time, and stays. */
+/* A request that nobody answers is a fault too, and ends here for good. After any other fault the request is made from within this
+ * handler: unanswered, it locks the processor up, which stops it as well. */
 void hard_fault(void) {
-    static volatile uint32_t faults;
-
-    if (faults++) {
-        for (;;) {}
-    }
+    while (semihosting_asking()) {}
     board_park(BOARD_HARD_FAULT);
 }
 

@@ -1,6 +1,7 @@
 /* From reset to main on RV32, and what happens when something goes wrong: machine mode, no interrupts. Privileged
  * Architecture 1.12, chapter 3.1. */
 #include "../board/board.h"
+#include "../board/semihosting.h"
 #include "../board/stack.h"
 
 #include <stdint.h>
@@ -39,7 +40,11 @@ void reset(void) {
     board_park(BOARD_DONE);
 }
 
-__attribute__((aligned(4))) void trap(void) { board_park(BOARD_HARD_FAULT); }
+/* A request that nobody answers is a trap too, and ends here for good. */
+__attribute__((aligned(4))) void trap(void) {
+    while (semihosting_asking()) {}
+    board_park(BOARD_HARD_FAULT);
+}
 
 void board_break(board_code_t code) {
     if (code == BOARD_STACK_GUARD) {

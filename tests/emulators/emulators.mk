@@ -61,8 +61,8 @@ emulate-sifive_e: $(SIFIVE)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so
 .PHONY: emulate-lm3s6965evb emulate-sifive_e test-firmware-checks test-firmware-harness
 test-firmware-checks: $(BUILD)/need/arm $(BUILD)/need/emulators # that the checks of images find what they look for
 	@$(PYTHON) $(EMULATORS)/test_checks.py $(FIRMWARE)/checks
-test-firmware-harness: $(LM3S)/frames.elf $(OBJ)/wire_trace $(BUILD)/need/emulators # that the harness tells what goes wrong
-	@$(PYTHON) $(EMULATORS)/test_harness.py $(LM3S)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/harness
+test-firmware-harness: $(LM3S)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so $(BUILD)/need/emulators # that the harness tells what goes wrong
+	@$(PYTHON) $(EMULATORS)/test_harness.py $(LM3S)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so $(FIRMWARE)/harness
 
 test-firmware: test-firmware-checks test-firmware-harness $(BOARDS:%=test-firmware-%) ## boards in emulators: frames equal to the simulator's, faults, sizes, stack
 

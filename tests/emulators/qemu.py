@@ -28,7 +28,7 @@ def counted_frames(plugin, image):
 class Qemu:
     """Use as a context: whatever happens, the emulator is gone afterwards."""
 
-    def __init__(self, machine, image, options="", cpu=None, limit_s=60, more=()):
+    def __init__(self, machine, image, options="", cpu=None, limit_s=60, more=(), semihosting=True):
         self.folder = tempfile.TemporaryDirectory(prefix="tuile-qemu-")
         self.limit = time.monotonic() + limit_s
         self.limit_s = limit_s
@@ -39,9 +39,9 @@ class Qemu:
         arguments = "".join(f",arg={word}" for word in ["frames"] + options.split())
         program = "qemu-system-riscv32" if machine in ("sifive_e", "virt") else "qemu-system-arm"
         command = [program, "-M", machine, "-display", "none", "-monitor", "none", "-serial", "stdio",
-                   "-semihosting-config", "enable=on,target=native" + arguments,
                    "-qmp", f"unix:{self.folder.name}/qmp,server=on,wait=off",
                    "-d", "guest_errors,unimp", "-D", self.log, *more]
+        command += ["-semihosting-config", "enable=on,target=native" + arguments] if semihosting else []
         command += ["-cpu", cpu] if cpu else []
         command += ["-bios", "none"] if machine == "virt" else []
         command += ["-kernel", os.path.abspath(image)]

@@ -1,6 +1,6 @@
 """The harness itself: emulators that hang, die or are not there, frames that differ, are missing or come out of turn, broken traces.
 
-    test_harness.py IMAGE WIRE_TRACE FOLDER   IMAGE: the LM3S6965 board's program
+    test_harness.py IMAGE WIRE_TRACE PLUGIN FOLDER   IMAGE: the LM3S6965 board's program; PLUGIN: the counter of instructions
 """
 
 import os
@@ -12,9 +12,9 @@ import unittest
 from expected import differ
 from frames import Frames
 from picture import Picture, read_ppm, reduce
-from qemu import EmulatorError, Qemu
+from qemu import EmulatorError, Qemu, counted_frames
 
-IMAGE, WIRE_TRACE, FOLDER = sys.argv[1:4]
+IMAGE, WIRE_TRACE, PLUGIN, FOLDER = sys.argv[1:5]
 
 
 class Emulator(unittest.TestCase):
@@ -53,6 +53,50 @@ class Emulator(unittest.TestCase):
         finally:
             os.environ["PATH"] = path
         self.assertIn("qemu-system-arm is not there", str(raised.exception))
+
+
+    def test_a_board_that_nobody_answers_stays_where_it_is(self):
+        with Qemu("lm3s6965evb", IMAGE, "", "cortex-m3", 1.5, semihosting=False) as machine, self.assertRaises(EmulatorError) as raised:
+            while machine.line() is not None:
+                pass
+            self.fail(f"it ended with {machine.end()}")  # QEMU gives up on a processor that locks up
+        self.assertIn("no end within 1.5 s", str(raised.exception))
+
+
+class Counter(unittest.TestCase):
+    # By hand: of frame_begins one instruction (bx), then movs, 100 times subs and bne, and bl: 1 + 1 + 200 + 1.
+    PROGRAM = """
+        .syntax unified
+        .cpu cortex-m3
+        .thumb
+        .word 0x20001000, start + 1
+        .type frame_begins, %function
+        .globl frame_begins, frame_ends, start
+    frame_begins: bx lr
+        .type frame_ends, %function
+    frame_ends: bx lr
+        .type start, %function
+    start: bl frame_begins
+        movs r0, #100
+    1:  subs r0, #1
+        bne 1b
+        bl frame_ends
+        bl frame_begins
+        bl frame_ends
+        movs r0, #0x20
+        ldr r1, =block
+        bkpt 0xab
+        .balign 4
+    block: .word 0x20026, 0
+    """
+
+    def test_instructions_are_those_that_were_counted_by_hand(self):
+        source, image = os.path.join(FOLDER, "count.s"), os.path.join(FOLDER, "count.elf")
+        with open(source, "w", encoding="ascii") as file:
+            file.write(self.PROGRAM)
+        subprocess.run(["arm-none-eabi-gcc", "-mcpu=cortex-m3", "-mthumb", "-nostdlib", "-Wl,-Ttext=0,-e,start", source, "-o", image], check=True)
+        with Qemu("lm3s6965evb", image, "", "cortex-m3", 20, counted_frames(PLUGIN, image)) as machine:
+            self.assertEqual((machine.counted(1), machine.counted(2)), ("203", "2"))
 
 
 class Pictures(unittest.TestCase):
