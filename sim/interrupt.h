@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-/* From now on SIGINT, SIGTERM and SIGHUP are only remembered. A second one ends the program at once. */
+/* Forgets what was seen before. From now on SIGINT, SIGTERM and SIGHUP are only remembered. A second one ends the program at once. */
 void interrupt_catch(void);
 
 /* The first of them since then, or 0. */

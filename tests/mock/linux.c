@@ -302,6 +302,15 @@ static int line(mock_linux_t *mock, unsigned offset, unsigned long request, UMoc
 
 /* ---- the kernel ------------------------------------------------------------------------------------------------- */
 
+static void pass_time(mock_linux_t *mock) {
+    struct timespec now;
+    uint64_t real_ns;
+
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    real_ns = (uint64_t)now.tv_sec * UINT64_C(1000000000) + (uint64_t)now.tv_nsec;
+    if (mock->real_time && real_ns > mock->now_ns) { mock->now_ns = real_ns; }
+}
+
 static gboolean handle(UMockdevIoctlBase *base, UMockdevIoctlClient *client, gpointer context) {
     mock_linux_t *mock = board;
     const char *node = umockdev_ioctl_client_get_devnode(client);
@@ -314,6 +323,7 @@ static gboolean handle(UMockdevIoctlBase *base, UMockdevIoctlClient *client, gpo
     long result = 0;
 
     (void)base, (void)context;
+    pass_time(mock);
     if (++mock->calls == mock->fail_call) {
         cut = mock->cut && is_spi && _IOC_NR(request) == 0;
         error = cut ? 0 : mock->fail_errno ? mock->fail_errno : EIO;

@@ -40,6 +40,7 @@ typedef struct mock_linux {
     const uint8_t *reply; /* bytes that a read gets, as they are on the wire; NULL: the chip's answer */
     uint32_t mode;        /* SPI mode and flags; in the end as the port has set them */
     bool wire_time;       /* a message takes as long as its bits do */
+    bool real_time;       /* the board's clock is the real one, for ports whose pauses are real */
     uint32_t late_us;     /* and this much more */
 
     UMockdevTestbed *bed;
