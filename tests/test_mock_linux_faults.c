@@ -35,6 +35,7 @@ static void check_seen(void) {
 }
 
 static void open_board(const tuile_linux_config_t *config) {
+    tuile_linux_close(&port); /* after a test that failed */
     mock = (mock_linux_t){.bufsiz = 2048};
     mock_linux_open(&mock, "ili9341");
     if (mock_linux_port(&mock, &port, config)) { fail_msg("%s", port.fault.text); }

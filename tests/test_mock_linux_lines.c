@@ -16,6 +16,7 @@ static mock_linux_t mock;
 static tuile_linux_t port;
 
 static void open_mock(void) {
+    tuile_linux_close(&port); /* after a test that failed */
     mock = (mock_linux_t){0};
     mock_linux_open(&mock, "ili9341");
 }

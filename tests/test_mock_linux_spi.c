@@ -15,6 +15,7 @@ static mock_linux_t mock; /* cleared by open_board */
 static tuile_linux_t port;
 
 static void open_board(const char *panel, uint32_t bufsiz, const tuile_linux_config_t *config) {
+    tuile_linux_close(&port); /* after a test that failed */
     mock = (mock_linux_t){.bufsiz = bufsiz};
     mock_linux_open(&mock, panel);
     if (mock_linux_port(&mock, &port, config)) { fail_msg("%s", port.fault.text); }

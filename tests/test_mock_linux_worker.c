@@ -17,6 +17,7 @@ static void open_board(bool no_worker) {
     tuile_linux_config_t config = mock_linux_config();
     static const uint8_t write_memory[1] = {0x2C}, sleep_out[1] = {0x11};
 
+    tuile_linux_close(&port); /* after a test that failed */
     config.no_worker = no_worker;
     mock = (mock_linux_t){.bufsiz = 2048};
     mock_linux_open(&mock, "ili9341");
