@@ -191,6 +191,20 @@ static void test_status_is_read_after_each_set_where_the_device_wants_it(void **
     gud_stand_finish(&stand);
 }
 
+/* A device that refuses everything is put to sleep in vain, but what is told is where it began. */
+static void test_text_is_that_of_the_first_fault(void **state) {
+    gud_stand_t stand;
+
+    (void)state;
+    gud_stand_start(&stand, &(sim_gud_config_t){.width = 16, .height = 8}, 0, 0);
+    sim_gud_break(stand.model, SIM_GUD_ERROR);
+    assert_int_equal(usb_card_draw(&stand.display, &(usb_card_way_t){.seed = 78}), TUILE_HAL_PROTOCOL);
+    assert_string_equal(stand.gud.error_text, "usb 1-2: SET_BUFFER: stalled; status: error");
+    assert_int_equal(tuile_display_close(&stand.display), TUILE_HAL_PROTOCOL);
+    assert_string_equal(stand.gud.error_text, "usb 1-2: SET_BUFFER: stalled; status: error");
+    gud_stand_finish(&stand);
+}
+
 static void test_sleep_and_resume(void **state) {
     gud_stand_t stand;
 
@@ -405,20 +419,21 @@ static void test_display_that_another_program_has(void **state) {
     gud_stand_finish(&stand);
 }
 
-/* The first that can be had, and no word about the one that could not. */
+/* One that can be had, and no word about the one that could not; in either order. */
 static void test_display_beside_one_that_another_program_has(void **state) {
-    sim_usb_t *taken = sim_gud_create(&(sim_gud_config_t){.width = 8, .height = 8}, NULL);
-    gud_stand_t stand = {0};
-
     (void)state;
-    mock_usb_state(mock_usb_plug(1, taken))->busy = true;
-    stand.model = sim_gud_create(&(sim_gud_config_t){.width = 16, .height = 8}, NULL);
-    stand.device = mock_usb_plug(2, stand.model);
-    assert_int_equal(tuile_gud_open(&stand.gud, NULL), 0);
-    assert_int_equal(stand.gud.width, 16);
-    assert_string_equal(stand.gud.error_text, "");
-    gud_stand_finish(&stand);
-    taken->destroy(taken);
+    for (unsigned port = 1; port <= 2; port++) {
+        sim_usb_t *taken = sim_gud_create(&(sim_gud_config_t){.width = 8, .height = 8}, NULL);
+        gud_stand_t stand = {0};
+        mock_usb_state(mock_usb_plug(port, taken))->busy = true;
+        stand.model = sim_gud_create(&(sim_gud_config_t){.width = 16, .height = 8}, NULL);
+        stand.device = mock_usb_plug(3 - port, stand.model);
+        assert_int_equal(tuile_gud_open(&stand.gud, NULL), 0);
+        assert_int_equal(stand.gud.width, 16);
+        assert_string_equal(stand.gud.error_text, "");
+        gud_stand_finish(&stand);
+        taken->destroy(taken);
+    }
 }
 
 static int open_as_nobody(void) {
@@ -528,6 +543,7 @@ int main(void) {
         cmocka_unit_test_setup(test_rotation_is_the_devices_property, mock_usb_set_up),
         cmocka_unit_test_setup(test_rotation_that_the_device_does_not_have, mock_usb_set_up),
         cmocka_unit_test_setup(test_status_is_read_after_each_set_where_the_device_wants_it, mock_usb_set_up),
+        cmocka_unit_test_setup(test_text_is_that_of_the_first_fault, mock_usb_set_up),
         cmocka_unit_test_setup(test_sleep_and_resume, mock_usb_set_up),
         cmocka_unit_test_setup(test_requests_in_the_kernels_order, mock_usb_set_up),
         cmocka_unit_test_setup(test_several_displays_by_serial_and_by_place, mock_usb_set_up),

@@ -19,7 +19,7 @@
 /* Zero = default, throughout. Only read by the call that it is given to. */
 typedef struct tuile_ax206_config {
     const char *serial;   /* which of several frames: by its serial number, */
-    uint8_t bus, address; /* or by its place, as lsusb numbers it; 0: the first that can be had */
+    uint8_t bus, address; /* or by its place, as lsusb numbers it; 0: any that can be had */
     uint32_t timeout_ms;  /* of each transfer; 0: 5000 */
 } tuile_ax206_config_t;
 

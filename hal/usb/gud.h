@@ -23,7 +23,7 @@
 /* Zero = default, throughout. Only read by the call that it is given to. */
 typedef struct tuile_gud_config {
     const char *serial;     /* which of several displays: by its serial number, */
-    uint8_t bus, address;   /* or by its place, as lsusb numbers it; 0: the first that can be had */
+    uint8_t bus, address;   /* or by its place, as lsusb numbers it; 0: any that can be had */
     uint16_t width, height; /* the mode, in pixels; 0: the one that the device prefers, else its first */
     uint8_t connector;      /* from 1; 0: the first that something is connected to */
     bool no_compression;    /* pixels are sent as they are, though the device takes LZ4 */

@@ -54,8 +54,8 @@ typedef struct tuile_usb {
     bool in_flight;              /* a bulk transfer has been submitted and not been waited for */
 } tuile_usb_t;
 
-/* Opens the first device of the kind that is as it was chosen and can be had, detaches the kernel's driver from the interface and
- * claims it. text: TUILE_USB_TEXT_BYTES, which outlive usb. 0, or with a line in text and everything freed:
+/* Opens a device of the kind that is as it was chosen and can be had, in libusb's order, detaches the kernel's driver from the
+ * interface and claims it. text: TUILE_USB_TEXT_BYTES, which outlive usb. 0, or with a line in text and everything freed:
  * TUILE_HAL_NOT_FOUND, _PERMISSION, _BUSY, _GONE, _IO, ... of the first device that could not be had. */
 int tuile_usb_open(tuile_usb_t *usb, const tuile_usb_kind_t *kind, const tuile_usb_choice_t *choice, uint32_t timeout_ms,
                    char *text);
