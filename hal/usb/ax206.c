@@ -159,7 +159,6 @@ static int start(void *context) {
     if (frame->status_due) { frame->bad = true; } /* the command before was left in its middle */
     frame->status_due = false;
     frame->error_text[0] = 0;
-    frame->window_bytes = frame->staged_bytes = 0;
     if (frame->bad && (result = recover(frame))) { return result; }
     return set_brightness(frame, 0);
 }

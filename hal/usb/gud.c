@@ -94,7 +94,6 @@ static int start(void *context) {
 
     (void)tuile_usb_bulk_wait(&gud->usb);
     gud->error_text[0] = 0;
-    gud->window_bytes = gud->staged_bytes = 0;
     if (gud->bulk_bad && (result = tuile_usb_clear_halt(&gud->usb, gud->usb.out))) {
         return tuile_usb_fail(&gud->usb, result, "clearing the halt: %s", gud->usb.words);
     }

@@ -289,11 +289,12 @@ static bool is_attached(libusb_context *context, const tuile_usb_kind_t *kind, c
     return found;
 }
 
+/* Whatever arrives ends the wait for events, and the list is looked at anew: nothing may be sent from in here. */
 static int LIBUSB_CALL arrived(libusb_context *context, libusb_device *device, libusb_hotplug_event event, void *user_data) {
     (void)context;
     (void)device;
     (void)event;
-    *(int *)user_data = 1; /* nothing may be sent from in here */
+    (void)user_data;
     return 0;
 }
 
@@ -307,23 +308,22 @@ static int64_t now_ms(void) {
 static int wait_in(libusb_context *context, const tuile_usb_kind_t *kind, const tuile_usb_choice_t *choice, int64_t end_ms) {
     libusb_hotplug_callback_handle callback;
     tuile_usb_t none = {0};
-    int result = TUILE_HAL_TIMEOUT, flag = 0;
+    int result = TUILE_HAL_TIMEOUT;
     const int error =
         libusb_hotplug_register_callback(context, LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED, 0, LIBUSB_HOTPLUG_MATCH_ANY,
-                                         LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, arrived, &flag, &callback);
+                                         LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, arrived, NULL, &callback);
 
     if (error) { return fault(&none, error); }
     for (;;) {
         const int64_t left_ms = end_ms - now_ms();
         struct timeval left = {.tv_sec = left_ms / 1000, .tv_usec = left_ms % 1000 * 1000};
 
-        flag = 0;
         if (is_attached(context, kind, choice)) {
             result = TUILE_HAL_OK;
             break;
         }
         if (left_ms <= 0) { break; }
-        result = libusb_handle_events_timeout_completed(context, &left, &flag);
+        result = libusb_handle_events_timeout_completed(context, &left, NULL);
         if (result && result != LIBUSB_ERROR_INTERRUPTED) {
             result = fault(&none, result);
             break;
