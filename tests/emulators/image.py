@@ -26,7 +26,7 @@ def module_of(path):
     """raster, hal, firmware, models or the compiler's library."""
     if "libgcc" in path:
         return "libgcc"
-    if "/model_" in path:
+    if "/model_" in path and "/raster/" not in path:
         return "models"
     for name in ("raster", "hal", "firmware"):
         if f"/{name}/" in path.split("build/firmware/")[-1]:
@@ -49,7 +49,7 @@ def read_map(path):
             continue
         found = found or (REST.match(line) if name else None)
         name = None
-        if not found or output not in (".text", ".data", ".bss", ".vectors", ".boot2"):
+        if not found or output not in (".text", ".fast", ".data", ".bss", ".vectors", ".boot2"):
             continue
         size, source = int(found.group(found.lastindex - 1), 16), found.group(found.lastindex)
         if size == 0 or not (source.endswith(".o") or source.endswith(".o)")):
@@ -57,8 +57,9 @@ def read_map(path):
         flash_ram_data = modules.setdefault(module_of(source), [0, 0, 0])
         if output != ".bss":
             flash_ram_data[0] += size
-        if output in (".bss", ".data"):
+        if output in (".bss", ".data", ".fast"):
             flash_ram_data[1] += size
+        if output in (".bss", ".data"):
             flash_ram_data[2] += size
     return modules
 

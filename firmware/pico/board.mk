@@ -1,0 +1,44 @@
+# Raspberry Pi Pico: RP2040 with a panel on SPI0. The second stage of its boot is sealed by the build.
+pico_TOOLS := arm-none-eabi-
+pico_NEED := pico
+pico_FLAGS := -mcpu=cortex-m0plus $(FIRMWARE_V6M)
+pico_STACK := 8160 # bytes: link.ld's room without the guard
+pico_SCENES := cube room spider bunny
+pico_DEFINES := -DTUILE_FEATURES=64 -DTUILE_FORMATS=1
+pico_BOOT2 := $(BUILD)/firmware/pico-boot2
+pico_SRC := $(wildcard firmware/cortex_m/*.c firmware/rp2/*.c) hal/panels/ili9341.c hal/panels/st7789.c $(pico_BOOT2).c
+
+$(BUILD)/need/pico: ; $(call need,gcc-arm-none-eabi python3,a compiler for Cortex-M)
+
+$(pico_BOOT2).c: firmware/pico/boot2.S firmware/pico/boot2.py $(BUILD)/need/pico
+	@mkdir -p $(@D)
+	@$(pico_TOOLS)gcc -mcpu=cortex-m0plus -mthumb -c $< -o $(pico_BOOT2).o
+	@$(pico_TOOLS)objcopy -O binary -j .text $(pico_BOOT2).o $(pico_BOOT2).bin
+	@python3 firmware/pico/boot2.py seal $(pico_BOOT2).bin $@
+
+# ---- other programs of the same objects: what the DMA saves, and programs that are broken on purpose (firmware/rp2/port.c) --
+# In a folder of their own, since the objects of frames.elf are read for its stack.
+pico_FOLDER := $(BUILD)/firmware/pico
+pico_MORE := $(BUILD)/firmware/pico-more
+pico_MUTANTS := $(patsubst %,$(pico_MORE)/mutant_%.elf,1 2 3 4)
+pico_OBJ = $(patsubst %.c,$(pico_FOLDER)/%.o,$(FIRMWARE_SRC) $(pico_SRC)) $(patsubst %,$(pico_FOLDER)/model_%.o,$(pico_SCENES))
+
+# $(call pico_relink,WITHOUT): the objects of frames.elf but one, with another in its place.
+define pico_relink
+	@echo "  pico $@"; $(pico_TOOLS)gcc $(pico_FLAGS) -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings \
+	  -T firmware/pico/link.ld $(filter-out %/$(1),$(pico_OBJ)) $(filter %.o,$^) -lgcc -o $@
+endef
+define pico_compile
+	@mkdir -p $(@D)
+	@echo "  pico $@"; $(pico_TOOLS)gcc $(pico_FLAGS) $(FIRMWARE_FLAGS) $(call scene_bits,$(pico_SCENES)) $(1) -MMD -MP -c $< -o $@
+endef
+
+$(pico_MORE)/overlap.elf: $(pico_MORE)/overlap.o $(pico_FOLDER)/frames.elf
+	$(call pico_relink,firmware/board/frames.o)
+$(pico_MORE)/overlap.o: firmware/rp2/programs/overlap.c
+	$(call pico_compile)
+
+$(pico_MUTANTS): $(pico_MORE)/mutant_%.elf: $(pico_MORE)/mutant_%.o $(pico_FOLDER)/frames.elf
+	$(call pico_relink,firmware/rp2/port.o)
+$(pico_MUTANTS:.elf=.o): $(pico_MORE)/mutant_%.o: firmware/rp2/port.c
+	$(call pico_compile,-DMUTANT=$*)

@@ -1,0 +1,71 @@
+#!/bin/sh
+# The Pico's programs on an emulated RP2040: every frame equals the simulator's, drawing and sending overlap, programs that are broken on
+# purpose are found out, and faults are reported with their codes. Usage: pico.sh BUILD PANEL_FRAMES STACK
+# STACK: the most bytes of stack that the program can take, as its call graph has it.
+set -eu
+build=$1
+panel_frames=$2
+stack=$3
+here=$(dirname "$0")
+out=$build/emulators/pico
+programs=$build/firmware/pico
+more=$build/firmware/pico-more
+mkdir -p "$out"
+
+emulate() {
+    program=$1
+    shift
+    node "$here/rp2040.mjs" --modules "$build/emulators" --program "$program.elf" "$@"
+}
+
+fail() {
+    echo "pico: $*" >&2
+    exit 1
+}
+
+# frames PANEL COUNT OPTIONS
+frames() {
+    emulate "$programs/frames" --trace "$out/$1.trace" --options "panel=$1 $3" >"$out/$1.txt" || fail "$1 $3: $(tail -3 "$out/$1.txt")"
+    "$panel_frames" "$out/$1.trace" "$1" "$build/firmware/models" "$2" || fail "the trace is $out/$1.trace"
+    rm "$out/$1.trace"
+    # Painted stack: what was used is no more than what the call graph says and an interrupt.
+    awk -v most="$stack" '$1 == "stack" { used = $2; room = $4 } END { exit !(used > 0 && used <= most + 72 && used <= room) }' "$out/$1.txt" ||
+        fail "$(tail -1 "$out/$1.txt"), but at most $stack by the call graph"
+}
+
+# breaks PROGRAM OPTIONS REASON: it must end with it.
+breaks() {
+    if emulate "$1" --quiet --options "$2" >"$out/breaks.txt" 2>&1; then fail "$1 $2: nothing was noticed"; fi
+    grep -qF "rp2040: $3" "$out/breaks.txt" || fail "$1 $2: not \"$3\", but: $(cat "$out/breaks.txt")"
+    echo "$(basename "$1") $2: $3"
+}
+
+# The second stage that the boot ROM would start, and one whose check sum is wrong.
+python3 "$here/../../firmware/pico/boot2.py" check "$programs/frames.bin"
+head -c 300 "$programs/frames.bin" | tr '\000' '\001' >"$out/spoilt.bin"
+if python3 "$here/../../firmware/pico/boot2.py" check "$out/spoilt.bin" 2>/dev/null; then fail "a wrong check sum passed"; fi
+
+# 18 pairs of scene and method.
+frames st7789-240x240 144 frames=8
+frames st7789-240x320 8 "frames=8 scene=bunny method=zbuffer"
+frames ili9341 8 "frames=8 scene=room method=tree"
+frames ili9341 16 "frames=4 scene=spider"
+
+emulate "$more/overlap" >"$out/overlap.txt" || fail "$(cat "$out/overlap.txt")"
+awk '$1 == "render" { render = $5 } $1 == "wire" { wire = $5 }
+     $1 == "both" {
+         most = render > wire ? render : wire
+         if (!worst || $5 / most > worst) { worst = $5 / most; text = sprintf("render %.3f ms, wire %.3f ms, both %.3f ms", render, wire, $5) }
+         if ($7 == 0) { print "pico: the core never sleeps"; exit 1 }
+         frames++
+     }
+     END { printf "overlap: %d frames, at worst %s: %.2f %% over the longer\n", frames, text, 100 * (worst - 1)
+           exit !(frames == 8 && worst <= 1.03) }' "$out/overlap.txt" || fail "drawing and sending do not overlap: $out/overlap.txt"
+
+breaks "$more/mutant_1" "scene=cube frames=1" "DMA writes to SPI0, but its requests are off"
+breaks "$more/mutant_2" "scene=cube frames=1" "a frame on SPI0, but GPIO 18, its clock, has the function 31"
+breaks "$more/mutant_3" "scene=cube frames=1" "SPI0 is in reset, but"
+breaks "$more/mutant_4" "scene=cube frames=1" "SSPCPSR is 0"
+breaks "$programs/frames" fault=hard "the program parked with 64"
+breaks "$programs/frames" fault=stack "the program parked with 65"
+breaks "$programs/frames" fault=assert "the program parked with 66"
