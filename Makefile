@@ -205,7 +205,7 @@ objects: $(CORE_OBJ)
 	@sh tests/features.sh $(OBJ)/features $(CC) $(CFLAGS_CORE)
 
 include tests/linux/linux.mk
-include firmware/firmware.mk tests/emulators/emulators.mk tests/emulators/pico.mk
+include firmware/firmware.mk tests/emulators/emulators.mk tests/emulators/pico.mk tests/tsan.mk
 
 # ---- figures -------------------------------------------------------------------------------------------------------
 SIZE ?= 320x240

@@ -28,7 +28,7 @@ static bool aligned(uint16_t tile, uint16_t size, uint8_t align, bool ragged) {
     return tile % align == 0 ? ragged || tile >= size || size % align == 0 : tile >= size && (ragged || size % align == 0);
 }
 
-static int check(const tuile_config_t *config, const tuile_display_t *display) {
+int tuile_stream_check(const tuile_config_t *config, const tuile_display_t *display) {
     if (config->format + 1u != display->wire || config->width != display->width || config->height != display->height) {
         return TUILE_ERROR_ARGUMENT;
     }
@@ -74,7 +74,8 @@ int tuile_stream_tiles(tuile_t *renderer, const tuile_scene_t *scene, tuile_disp
     int result, waited, ended;
 
     if (stats) { *stats = (tuile_stats_t){0}; }
-    if ((result = tuile_display_wait(display)) || (result = check(config, display)) || (result = tuile_begin(renderer, scene))) {
+    if ((result = tuile_display_wait(display)) || (result = tuile_stream_check(config, display)) ||
+        (result = tuile_begin(renderer, scene))) {
         return result;
     }
     if (hooks->begun) { hooks->begun(hooks->context, scene); }

@@ -8,6 +8,9 @@
 /* The renderer's format (tuile_format_t) whose bytes an initialised display takes. */
 uint8_t tuile_stream_format(const tuile_display_t *display);
 
+/* Do a renderer's window, format and tiles go with the display? 0 or TUILE_ERROR_ARGUMENT, as tuile_stream_frame has it. */
+int tuile_stream_check(const tuile_config_t *config, const tuile_display_t *display);
+
 /* Draws one frame and sends it. With two tile buffers (tuile_config_t.buffers) a tile is on the wire while the next is drawn.
  * The renderer's window must be as large as the display, its format the display's (tuile_stream_format) and its tiles aligned as
  * the display's windows are, else TUILE_ERROR_ARGUMENT before anything is drawn.

@@ -253,9 +253,9 @@ static const char *fake_error_text(int error) { return error ? "renderer" : "no 
 #define next stream_next
 #define tuile_stream_error_text stream_error_text_under_test
 #define tuile_stream_format stream_format_under_test
-#define check stream_check
+#define tuile_stream_check stream_check_under_test
 #include "../firmware/stream.c"
-#undef check
+#undef tuile_stream_check
 #undef next
 
 static const tuile_scene_t nothing;
