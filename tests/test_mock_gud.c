@@ -220,6 +220,26 @@ static void test_whole_frames_are_cut_at_the_devices_buffer(void **state) {
     gud_stand_finish(&stand);
 }
 
+/* Frames come without SET_BUFFER, but for the one after a frame that was cut. */
+static void test_whole_frame_after_one_that_was_cut_is_announced(void **state) {
+    sim_gud_counts_t *counts;
+    gud_stand_t stand;
+
+    (void)state;
+    gud_stand_start(&stand, &(sim_gud_config_t){.width = 16, .height = 10, .full_update = true, .max_buffer_bytes = 160}, 0, 0);
+    counts = sim_gud_counts(stand.model);
+    mock_usb_state(stand.device)->fault = MOCK_USB_PROTO;
+    mock_usb_state(stand.device)->fault_at = mock_usb_state(stand.device)->submitted + 2; /* the frame's second half */
+    assert_int_equal(usb_card_draw(&stand.display, &(usb_card_way_t){.seed = 46}), TUILE_HAL_IO);
+    assert_int_equal(counts->set_buffers, 0);
+    assert_int_equal(tuile_display_resume(&stand.display), 0);
+    gud_stand_draw(&stand, &(usb_card_way_t){.seed = 47}, 0);
+    assert_int_equal(counts->set_buffers, 1);
+    gud_stand_draw(&stand, &(usb_card_way_t){.seed = 48}, 0);
+    assert_int_equal(counts->set_buffers, 1);
+    gud_stand_finish(&stand);
+}
+
 /* What a window does not cover is sent as it was. */
 static void test_whole_frames_keep_what_no_window_covers(void **state) {
     const uint8_t white[4] = {255, 255, 255, 255};
@@ -310,6 +330,7 @@ int main(void) {
         cmocka_unit_test_setup(test_compression_can_be_declined, mock_usb_set_up),
         cmocka_unit_test_setup(test_whole_frames_are_gathered_from_windows, mock_usb_set_up),
         cmocka_unit_test_setup(test_whole_frames_are_cut_at_the_devices_buffer, mock_usb_set_up),
+        cmocka_unit_test_setup(test_whole_frame_after_one_that_was_cut_is_announced, mock_usb_set_up),
         cmocka_unit_test_setup(test_whole_frames_keep_what_no_window_covers, mock_usb_set_up),
         cmocka_unit_test_setup(test_default_is_the_best_that_is_offered, mock_usb_set_up),
         cmocka_unit_test_setup(test_formats_that_cannot_be_had, mock_usb_set_up),

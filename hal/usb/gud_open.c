@@ -87,10 +87,7 @@ static int read_properties(tuile_gud_t *gud, uint8_t request, uint16_t connector
         tuile_gud_property_t *property = &gud->properties[gud->property_count++];
         property->id = (uint16_t)tuile_gud_get16(bytes + at);
         property->value = tuile_gud_get32(bytes + at + 2) | (uint64_t)tuile_gud_get32(bytes + at + 6) << 32;
-        if (property->id == TUILE_GUD_ROTATION && request == TUILE_GUD_GET_PROPERTIES) {
-            gud->rotations = property->value & 15u;
-            property->value = 1; /* what it can do was read; this is what it does */
-        }
+        if (property->id == TUILE_GUD_ROTATION && request == TUILE_GUD_GET_PROPERTIES) { gud->rotations = property->value & 15u; }
         if (request == TUILE_GUD_GET_PROPERTIES) { gud->device_property_count++; }
         if (property->id == TUILE_GUD_BACKLIGHT && request == TUILE_GUD_GET_CONNECTOR_PROPERTIES) { gud->dimmable = true; }
     }
