@@ -7,6 +7,7 @@
 #define STACK_PAINT 0xc5c5c5c5u
 #define STACK_GUARD_BYTES 32u /* the lowest ones must stay painted */
 
+/* The linker script's. Where one ends and another begins only their addresses tell, so those are compared as numbers. */
 extern uint32_t stack_bottom[], stack_top[];
 
 /* Called by start-up code at the top of the empty stack: paints all that lies well below its caller's frame. */

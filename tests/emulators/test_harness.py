@@ -55,6 +55,15 @@ class Emulator(unittest.TestCase):
         self.assertIn("qemu-system-arm is not there", str(raised.exception))
 
 
+    def test_the_bin_and_the_hex_file_are_the_program(self):
+        binary, hexadecimal = IMAGE.replace(".elf", ".bin"), IMAGE.replace(".elf", ".hex")
+        with Qemu("lm3s6965evb", binary, "frames=1", "cortex-m3", 20) as machine:
+            self.assertEqual([machine.line(), machine.line()], ["board 128 64", "frame cube zbuffer 0 passes 1"])
+        back = os.path.join(FOLDER, "back.bin")
+        subprocess.run(["arm-none-eabi-objcopy", "-I", "ihex", "-O", "binary", hexadecimal, back], check=True)
+        with open(binary, "rb") as one, open(back, "rb") as other:
+            self.assertEqual(one.read(), other.read())
+
     def test_a_board_that_nobody_answers_stays_where_it_is(self):
         with Qemu("lm3s6965evb", IMAGE, "", "cortex-m3", 1.5, semihosting=False) as machine, self.assertRaises(EmulatorError) as raised:
             while machine.line() is not None:

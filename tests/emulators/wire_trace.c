@@ -111,7 +111,7 @@ int main(int count, char **arguments) {
     trace.bytes = malloc(RECORD_MOST_BYTES + 1);
     result = trace.chip && trace.bytes ? read_all(&trace, &records, &error) : sim_fail(&error, "out of memory");
     if (result) { (void)fprintf(stderr, "wire_trace: record %" PRIu64 ": %s\n", records + 1, error.text); }
-    if (result == 0 && trace.chip->warnings) {
+    if (result == 0 && trace.chip && trace.chip->warnings) {
         (void)fprintf(stderr, "wire_trace: %s: %s\n", trace.panel->chip, trace.chip->warning.text);
         result = 1;
     }
