@@ -4,6 +4,7 @@
 #include "../firmware/player.h"
 #include "../sim/target.h"
 #include "support/built.h"
+#include "support/folder.h"
 
 #define BLOCK_BYTES (512u * 1024u)
 
@@ -187,6 +188,8 @@ static void a_method_that_the_script_does_not_name_is_refused(void **state) {
     open_scene(&s, "spider", TUILE_ZBUFFER);
     s.config.method = TUILE_TREE;
     assert_int_equal(player_open(&s.player, scene_find("spider"), &s.config), TUILE_ERROR_ARGUMENT);
+    s.config.method = 255;
+    assert_int_equal(player_open(&s.player, scene_find("spider"), &s.config), TUILE_ERROR_ARGUMENT);
     s.config.method = TUILE_TREE + 1;
     assert_int_equal(player_open(&s.player, scene_find("spider"), &s.config), TUILE_ERROR_ARGUMENT);
     close_all(&s);
@@ -227,6 +230,70 @@ static void tiles_suit_the_display(void **state) {
     }
 }
 
+/* However small the block: it is too small, or tiles begin where windows may. */
+static void no_block_makes_tiles_that_the_display_refuses(void **state) {
+    static const char *const panels[] = {"ssd1306-128x64", "ssd0323", "ssd1322"};
+    unsigned small = 0, heights = 0;
+    (void)state;
+    for (unsigned i = 0; i < CHECK_COUNT(panels); i++) {
+        for (unsigned rotation = 0; rotation < 2; rotation++) {
+            shown_t s = {0};
+            open_panel(&s, panels[i], rotation);
+            open_scene(&s, "cube", TUILE_ZBUFFER);
+            for (size_t bytes = 1000; bytes < 9000; bytes += 100) {
+                s.config.block_bytes = bytes;
+                const int result = player_open(&s.player, scene_find("cube"), &s.config);
+                if (result == TUILE_ERROR_MEMORY) {
+                    assert_true(s.player.wanted_bytes > bytes);
+                    small++;
+                    continue;
+                }
+                assert_int_equal(result, 0);
+                assert_int_equal(tuile_config(s.player.renderer)->tile_height % s.target.display.align_y, 0);
+                assert_int_equal(player_frame(&s.player, 1), 0);
+                heights |= 1u << ((unsigned)tuile_config(s.player.renderer)->tile_height / s.target.display.align_y % 32u);
+            }
+            close_all(&s);
+        }
+    }
+    assert_true(small > 20);
+    assert_true((heights & (heights - 1)) != 0); /* of more than one height */
+}
+
+/* A model is as large as its distance makes it. */
+static void models_of_any_size_look_alike(void **state) {
+    static const double factors[] = {1, 1.0 / 1048576, 1048576};
+    sim_picture_t first = {0};
+    (void)state;
+    for (unsigned i = 0; i < CHECK_COUNT(factors); i++) {
+        char text[1024], *at = text;
+        shown_t s = {0};
+        for (unsigned v = 0; v < 8; v++) {
+            at += sprintf(at, "v %.12g %.12g %.12g\n", (v & 1 ? 3 : -1) * factors[i], (v & 2 ? 1 : -1) * factors[i],
+                          (v & 4 ? 1 : -2) * factors[i]);
+        }
+        (void)sprintf(at, "f 5 6 8 7\nf 2 1 3 4\nf 6 2 4 8\nf 1 5 7 3\nf 7 8 4 3\nf 1 2 6 5\n");
+        const mesh_options_t tree = {.tree = true};
+        s.model = built_load(folder_put_text("box.obj", text), &tree);
+        open_panel(&s, "ili9341", 0);
+        s.config = (player_config_t){.model = s.model.bytes,
+                                     .model_bytes = s.model.size,
+                                     .display = &s.target.display,
+                                     .block = block,
+                                     .block_bytes = sizeof block};
+        assert_int_equal(player_open(&s.player, scene_find("cube"), &s.config), 0);
+        sim_picture_t picture = picture_of(&s, 3);
+        if (i == 0) {
+            first = picture;
+        } else {
+            assert_int_equal(difference(&picture, &first), 0);
+            sim_picture_free(&picture);
+        }
+        close_all(&s);
+    }
+    sim_picture_free(&first);
+}
+
 /* What it wants, it draws with. */
 static void too_little_memory_is_told_in_bytes(void **state) {
     shown_t s = {0};
@@ -252,10 +319,11 @@ static void too_little_memory_is_told_in_bytes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_find_their_scenes),      cmocka_unit_test(every_method_draws_the_same_scene),
-        cmocka_unit_test(frames_differ_and_come_round), cmocka_unit_test(turning_models_fit_any_window),
-        cmocka_unit_test(damaged_models_are_refused),   cmocka_unit_test(a_method_that_the_script_does_not_name_is_refused),
-        cmocka_unit_test(tiles_suit_the_display),       cmocka_unit_test(too_little_memory_is_told_in_bytes),
+        cmocka_unit_test(names_find_their_scenes),       cmocka_unit_test(every_method_draws_the_same_scene),
+        cmocka_unit_test(frames_differ_and_come_round),  cmocka_unit_test(turning_models_fit_any_window),
+        cmocka_unit_test(damaged_models_are_refused),    cmocka_unit_test(a_method_that_the_script_does_not_name_is_refused),
+        cmocka_unit_test(tiles_suit_the_display),        cmocka_unit_test(no_block_makes_tiles_that_the_display_refuses),
+        cmocka_unit_test(models_of_any_size_look_alike), cmocka_unit_test(too_little_memory_is_told_in_bytes),
     };
-    return cmocka_run_group_tests_name("scenes", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("scenes", tests, folder_make, folder_remove);
 }
