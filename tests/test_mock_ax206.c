@@ -244,21 +244,50 @@ static void test_command_that_fails_says_so(void **state) {
     finish(&stand);
 }
 
-/* A status for another command is no status. */
-static void test_status_that_belongs_to_another_command(void **state) {
-    static const uint8_t answers[] = {0xE0, 1, 0x40, 1, 0, STATUS(9)};
-    sim_usb_t *model = sim_ax206_create(NULL, NULL);
-    tape_t tape = {.usb = *model, .answers = answers};
-    tuile_ax206_t frame;
+/* Whoever closes after a fault leaves the frame dark all the same. */
+static void test_dark_after_a_fault_without_resume(void **state) {
+    stand_t stand;
 
     (void)state;
-    tape.usb.bulk = tape_bulk;
-    tape.usb.reset = tape_reset;
-    (void)mock_usb_plug(1, &tape.usb);
-    assert_int_equal(tuile_ax206_open(&frame, NULL), TUILE_HAL_PROTOCOL);
-    assert_string_equal(frame.error_text, "usb 1-2: reading the size: what came is not the status of the command");
-    mock_usb_clear();
-    model->destroy(model);
+    start(&stand, 8, 4);
+    draw(&stand, &(usb_card_way_t){.seed = 10});
+    mock_usb_state(stand.device)->fault = MOCK_USB_PROTO;
+    mock_usb_state(stand.device)->fault_at = mock_usb_state(stand.device)->submitted + 2; /* pixels, after their command */
+    assert_int_equal(usb_card_draw(&stand.display, &(usb_card_way_t){.seed = 11}), TUILE_HAL_IO);
+    assert_int_equal(tuile_display_close(&stand.display), 0);
+    usb_card_check_dark(stand.model);
+    finish(&stand);
+}
+
+static void test_size_that_is_cut(void **state) {
+    stand_t stand;
+
+    (void)state;
+    plug(&stand, 8, 4);
+    mock_usb_state(stand.device)->fault = MOCK_USB_SHORT;
+    mock_usb_state(stand.device)->fault_at = 2;
+    assert_int_equal(begin(&stand, NULL), TUILE_HAL_PROTOCOL);
+    assert_string_equal(stand.frame.error_text, "usb 1-2: reading the size: the answer is too short");
+    finish(&stand);
+}
+
+/* A status for another command is no status, nor is one without its signature. */
+static void test_status_that_is_not_the_commands(void **state) {
+    static const uint8_t answers[2][18] = {{0xE0, 1, 0x40, 1, 0, STATUS(9)}, {0xE0, 1, 0x40, 1, 0, 'U', 'S', 'B', 'C', 1}};
+
+    (void)state;
+    for (size_t i = 0; i < CHECK_COUNT(answers); i++) {
+        sim_usb_t *model = sim_ax206_create(NULL, NULL);
+        tape_t tape = {.usb = *model, .answers = answers[i]};
+        tuile_ax206_t frame;
+        tape.usb.bulk = tape_bulk;
+        tape.usb.reset = tape_reset;
+        (void)mock_usb_plug(1, &tape.usb);
+        assert_int_equal(tuile_ax206_open(&frame, NULL), TUILE_HAL_PROTOCOL);
+        assert_string_equal(frame.error_text, "usb 1-2: reading the size: what came is not the status of the command");
+        mock_usb_clear();
+        model->destroy(model);
+    }
 }
 
 static void test_frame_without_an_endpoint_to_the_host(void **state) {
@@ -288,7 +317,9 @@ int main(void) {
         cmocka_unit_test_setup(test_what_it_does_not_have, mock_usb_set_up),
         cmocka_unit_test_setup(test_which_of_two, mock_usb_set_up),
         cmocka_unit_test_setup(test_command_that_fails_says_so, mock_usb_set_up),
-        cmocka_unit_test_setup(test_status_that_belongs_to_another_command, mock_usb_set_up),
+        cmocka_unit_test_setup(test_dark_after_a_fault_without_resume, mock_usb_set_up),
+        cmocka_unit_test_setup(test_size_that_is_cut, mock_usb_set_up),
+        cmocka_unit_test_setup(test_status_that_is_not_the_commands, mock_usb_set_up),
         cmocka_unit_test_setup(test_frame_without_an_endpoint_to_the_host, mock_usb_set_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

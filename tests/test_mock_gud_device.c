@@ -49,7 +49,10 @@ static void test_mode_from_edid(void **state) {
     static const uint8_t timing[18] = {0xD6, 0x09, 0x80, 0xA0, 0x20, 0xE0, 0x2D, 0x10, 0x10, 0x60, 0xA2, 0x00, 0, 0, 0, 0, 0, 0x18};
 
     (void)state;
-    memcpy(edid + 54, timing, sizeof timing);
+    memcpy(edid + 54, (const uint8_t[18]){0, 0, 0, 0xFC, 0, 'T', 'u', 'i', 'l', 'e'}, 18); /* a name */
+    memcpy(edid + 72, timing, sizeof timing);
+    edid[72 + 17] |= 0x80; /* interlaced */
+    memcpy(edid + 90, timing, sizeof timing);
     for (unsigned i = 0; i < 127; i++) {
         sum = (uint8_t)(sum + edid[i]);
     }
