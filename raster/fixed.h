@@ -53,8 +53,8 @@ TUILE_INLINE int64_t fixed_floor_div64(int64_t a, int64_t b) {
     return quotient - (a % b < 0);
 }
 
-/* floor(a * b / 2^32): |result| < 2^31. */
-TUILE_INLINE int32_t fixed_mul_high(int32_t a, uint32_t b) { return (int32_t)(((int64_t)a * b) >> 32); }
+/* floor(a * b / 2^32), |a| <= 2^31: |result| < 2^31. */
+TUILE_INLINE int32_t fixed_mul_high(intptr_t a, uint32_t b) { return (int32_t)(((int64_t)a * b) >> 32); }
 
 /* floor(a * b / 2^shift) through a 96-bit product, shift <= 62; the result must fit in 63 bits, |a| <= 2^62. */
 TUILE_INLINE int64_t fixed_mul_shift(int64_t a, int32_t b, unsigned shift) {

@@ -16,22 +16,36 @@
 
 #define AXIS_LENGTH_MAX 128 /* axes are about 127 long; one that were longer would cull nothing */
 
-static bool sphere_outside(const transform_t *transform, int32_t x, int32_t y, int32_t z, uint32_t radius) {
-    for (unsigned p = 0; p < PLANE_COUNT; p++) {
+/* A sphere on the wrong side of one of the planes, told by bits. crossed: those that it is not wholly on the right side of. */
+static bool sphere_outside(const transform_t *transform, unsigned planes, const int32_t centre[3], uint32_t radius,
+                           unsigned *crossed) {
+    *crossed = 0;
+    for (unsigned p = 0; planes >> p; p++) {
+        if (!(planes >> p & 1u)) { continue; }
         const transform_plane_t *plane = &transform->planes[p];
-        const int64_t value = (int64_t)plane->n[0] * x + (int64_t)plane->n[1] * y + (int64_t)plane->n[2] * z + plane->d;
-        if (value + (int64_t)((uint64_t)plane->length * radius) < 0) { return true; }
+        const int64_t value =
+            (int64_t)plane->n[0] * centre[0] + (int64_t)plane->n[1] * centre[1] + (int64_t)plane->n[2] * centre[2] + plane->d;
+        const int64_t reach = (int64_t)((uint64_t)plane->length * radius);
+        if (value + reach < 0) { return true; }
+        if (value - reach < 0) { *crossed |= 1u << p; }
     }
     return false;
 }
 
 bool cull_outside(const transform_t *transform, const uint8_t *cluster) {
-    return sphere_outside(transform, model_i16(cluster + CLUSTER_AT_CENTRE), model_i16(cluster + CLUSTER_AT_CENTRE + 2),
-                          model_i16(cluster + CLUSTER_AT_CENTRE + 4), model_u16(cluster + CLUSTER_AT_RADIUS));
+    if (transform->crossed == 0) { return false; }
+    const int32_t centre[3] = {model_i16(cluster + CLUSTER_AT_CENTRE), model_i16(cluster + CLUSTER_AT_CENTRE + 2),
+                               model_i16(cluster + CLUSTER_AT_CENTRE + 4)};
+    unsigned crossed;
+    return sphere_outside(transform, transform->crossed, centre, model_u16(cluster + CLUSTER_AT_RADIUS), &crossed);
 }
 
-bool cull_model_outside(const transform_t *transform, const tuile_model_t *model) {
-    return sphere_outside(transform, model->centre[0], model->centre[1], model->centre[2], model->radius);
+bool cull_model_outside(transform_t *transform, const tuile_model_t *model) {
+    const int32_t centre[3] = {model->centre[0], model->centre[1], model->centre[2]};
+    unsigned crossed;
+    const bool outside = sphere_outside(transform, (1u << PLANE_COUNT) - 1, centre, model->radius, &crossed);
+    transform->crossed = (uint8_t)crossed;
+    return outside;
 }
 
 /* ---- whole instances ---- */

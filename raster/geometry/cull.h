@@ -8,8 +8,9 @@
  * vertex inside; may be false for one that misses the region round a corner. cluster: geometry/model.h. */
 bool cull_outside(const transform_t *transform, const uint8_t *cluster);
 
-/* The same of the bounding sphere of the whole model. */
-bool cull_model_outside(const transform_t *transform, const tuile_model_t *model);
+/* The same of the bounding sphere of the whole model. Sets transform->crossed, which cull_outside goes by: it is to be called
+ * first. */
+bool cull_model_outside(transform_t *transform, const tuile_model_t *model);
 
 /* The same before there is a transform, which takes thirty times as long to make; a sphere that misses the region by less than an
  * eighth of its radius may be kept. camera: in samples. Pose and camera have passed transform_check. */

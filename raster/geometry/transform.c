@@ -304,8 +304,14 @@ static void side_plane(const transform_t *transform, transform_plane_t *plane, c
 
 void transform_region(transform_t *transform, const transform_region_t *region) {
     wide_row_t w = row_load(&transform->w);
+    transform->crossed = (1u << PLANE_COUNT) - 1;
     const wide_t low = wide_make(-transform->w_low, 0), high = wide_make(transform->w_high, 0);
     wide_row_t plane = w;
+    /* Where the first pixel whose centre is at or beyond a coordinate is left ... right, top ... bottom. */
+    transform->region_x = (int16_t)(16 * region->left - 7); /* below 2^15: TUILE_SAMPLES_MAX */
+    transform->region_y = (int16_t)(16 * region->top - 7);
+    transform->region_width = (uint16_t)(16 * (region->right - region->left + 1));
+    transform->region_height = (uint16_t)(16 * (region->bottom - region->top + 1));
     plane.t = wide_add(plane.t, low);
     plane_store(&transform->planes[PLANE_NEAR], &plane);
     plane = row_scale(&w, wide_make(-1, 0));

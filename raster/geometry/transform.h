@@ -38,11 +38,16 @@ typedef struct transform {
     int8_t k;           /* perspective: window coordinate in 1/16 pixel = X * 2^k / W, 0 <= k <= 32; orthographic: X * 2^k, k < 0 */
     int8_t depth_shift; /* perspective: depth in 1/256 step = reciprocal >> (depth_shift - n), geometry/vertex.c;
                            orthographic: fine w >> depth_shift */
-    int64_t w_low, w_high;    /* fine values between near and far plane */
-    int32_t w_fast;           /* coarse: from here on 32-bit arithmetic is exact enough (perspective) */
+    /* A face whose corners all have 0 <= x - region_x < region_width, and so for y, covers no pixel outside of the region. Widths
+     * of 0: of no face can that be told so. */
+    int16_t region_x, region_y;
+    int64_t w_low, w_high; /* fine values between near and far plane */
+    int32_t w_fast;        /* coarse: from here on 32-bit arithmetic is exact enough (perspective) */
+    uint16_t region_width, region_height;
     int32_t guard_x, guard_y; /* least window coordinates that a vertex may have, 1/16 pixel; they span GUARD_SPAN */
     /* Culling of clusters. */
     transform_plane_t planes[PLANE_COUNT];
+    uint8_t crossed;       /* bits of those that the model is not wholly inside of: geometry/cull.c */
     int32_t eye[3];        /* perspective: steps >> eye_shift; orthographic: the view direction, |.| <= 2^20 */
     uint8_t eye_shift;     /* eyes far away are cut to 21 bits */
     int32_t observer[3];   /* for the sides of planes: perspective: the eye, in steps * 2^observer_bits; orthographic: the way to
@@ -71,7 +76,7 @@ int transform_check(const tuile_scene_t *scene, const tuile_instance_t *instance
 int transform_make(transform_t *transform, const tuile_scene_t *scene, const tuile_instance_t *instance, uint16_t window_width,
                    uint16_t window_height);
 
-/* The four sides of the region as culling planes; transform_make must have been called. */
+/* The region, and its four sides as culling planes; transform_make must have been called. */
 void transform_region(transform_t *transform, const transform_region_t *region);
 
 TUILE_INLINE int64_t transform_fine(const transform_row_t *row, const int16_t q[3]) {

@@ -51,65 +51,117 @@ static TUILE_NOINLINE vertex_t vertex_from_fine(const transform_t *transform, co
     return inside ? vertex : outside(light);
 }
 
-TUILE_INLINE int32_t coarse(const transform_row_t *row, int32_t x, int32_t y, int32_t z) {
-    return (int32_t)(((int64_t)row->m[0] * x + (int64_t)row->m[1] * y + (int64_t)row->m[2] * z + row->t) >> 16);
+/* 31 bits, in a whole register. */
+TUILE_INLINE intptr_t coarse(const transform_row_t *row, int32_t x, int32_t y, int32_t z) {
+    return (intptr_t)(((int64_t)row->m[0] * x + (int64_t)row->m[1] * y + (int64_t)row->m[2] * z + row->t) >> 16);
 }
 
 /* Light at the next of the normals, if there are any. */
-TUILE_INLINE uint8_t next_light(const transform_t *transform, const int8_t **normal) {
+TUILE_INLINE uint8_t next_light(const transform_t *transform, const int8_t **normal, bool lit) {
+    if (!lit) { return LIGHT_MIN; }
     const int8_t *n = *normal;
-    if (n == NULL) { return LIGHT_MIN; }
     *normal = n + 3;
     return vertex_light(transform, n[0], n[1], n[2]);
 }
 
-static bool perspective(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count, vertex_t *out) {
-    const int32_t first = transform->w_fast, last = (int32_t)(transform->w_high >> 16) - 2;
-    const uint32_t range = last > first ? (uint32_t)(last - first) : 0; /* strictly inside far plane, too */
-    const int32_t k = transform->k, depth_shift = transform->depth_shift;
-    const int32_t low_x = transform->guard_x + GUARD_MARGIN, low_y = transform->guard_y + GUARD_MARGIN;
-    bool any_outside = false;
+/* The light of most scenes: none or one. */
+typedef struct vertex_sun {
+    int32_t x, y, z, ambient;
+    bool alone, two_sided;
+} vertex_sun_t;
 
-    for (; count; count--, q += 3, out++) {
-        const uint8_t light = next_light(transform, &normal);
-        const int32_t w = coarse(&transform->w, q[0], q[1], q[2]);
-        if (TUILE_UNLIKELY((uint32_t)w - (uint32_t)first >= range)) {
+TUILE_INLINE uint8_t sun_light(const transform_t *transform, const vertex_sun_t *sun, const int8_t *n) {
+    if (TUILE_UNLIKELY(!sun->alone)) { return vertex_light(transform, n[0], n[1], n[2]); }
+    const int32_t dot = (n[0] * sun->x + n[1] * sun->y + n[2] * sun->z) >> 13;
+    int32_t sum = sun->ambient;
+    if (dot > 0) {
+        sum += dot;
+    } else if (sun->two_sided) {
+        sum -= dot;
+    }
+    return (uint8_t)(sum > LIGHT_MAX ? LIGHT_MAX : sum);
+}
+
+/* What all W with the same number of leading zeros share, where they are fast and strictly inside far plane: first <= W < first +
+ * range. Neighbours mostly have it in common. */
+typedef struct vertex_octave {
+    uint32_t first, range;
+    unsigned zeros, shift, depth_shift;
+    int32_t half;
+} vertex_octave_t;
+
+/* False: W is to be projected from fine coordinates. */
+TUILE_INLINE bool octave_of(const transform_t *transform, vertex_octave_t *octave, int32_t w) {
+    const int32_t first = transform->w_fast, last = (int32_t)(transform->w_high >> 16) - 2;
+    if (w < first || w >= last) { return false; }
+    const unsigned zeros = fixed_clz32((uint32_t)w); /* >= 1, since w_fast > 0 */
+    const uint32_t low = 0x80000000u >> zeros, end = low * 2;
+    octave->first = low > (uint32_t)first ? low : (uint32_t)first;
+    octave->range = (end < (uint32_t)last ? end : (uint32_t)last) - octave->first;
+    octave->zeros = zeros;
+    octave->shift = (unsigned)(30 - transform->k - (int32_t)zeros);
+    octave->depth_shift = (unsigned)(transform->depth_shift - (int32_t)zeros);
+    octave->half = (int32_t)(1u << (octave->shift - 1));
+    return true;
+}
+
+/* lit is a constant where this is called. */
+TUILE_INLINE unsigned perspective(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count,
+                                  vertex_t *out, bool lit) {
+    const int32_t low_x = transform->guard_x + GUARD_MARGIN, low_y = transform->guard_y + GUARD_MARGIN;
+    const int32_t region_x = transform->region_x, region_y = transform->region_y;
+    const uint32_t region_width = transform->region_width, region_height = transform->region_height;
+    const vertex_sun_t sun = {transform->lights[0][0], transform->lights[0][1],     transform->lights[0][2],
+                              transform->ambient,      transform->light_count <= 1, transform->two_sided};
+    vertex_octave_t octave = {.range = 0};
+    unsigned any = 0;
+
+    for (const vertex_t *const end = out + count; out != end; q += 3, out++) {
+        const uint8_t light = lit ? sun_light(transform, &sun, normal) : LIGHT_MIN;
+        if (lit) { normal += 3; }
+        const int32_t w = (int32_t)coarse(&transform->w, q[0], q[1], q[2]);
+        if (TUILE_UNLIKELY((uint32_t)w - octave.first >= octave.range) && !octave_of(transform, &octave, w)) {
             *out = vertex_from_fine(transform, q, NULL, light);
-            any_outside |= out->x == VERTEX_OUTSIDE;
+            any |= VERTEX_ANY_BEYOND | (out->x == VERTEX_OUTSIDE);
             continue;
         }
-        const int32_t n = (int32_t)fixed_clz32((uint32_t)w);
-        const uint32_t r = fixed_reciprocal((uint32_t)w << n);
-        const unsigned shift = (unsigned)(30 - k - n);
-        const int32_t half = (int32_t)(1u << (shift - 1));
-        const int32_t x = (fixed_mul_high(coarse(&transform->x, q[0], q[1], q[2]), r) + half) >> shift;
-        const int32_t y = (fixed_mul_high(coarse(&transform->y, q[0], q[1], q[2]), r) + half) >> shift;
-        uint32_t depth = r >> (depth_shift - n);
+        const uint32_t r = fixed_reciprocal((uint32_t)w << octave.zeros);
+        const int32_t x = (fixed_mul_high(coarse(&transform->x, q[0], q[1], q[2]), r) + octave.half) >> octave.shift;
+        const int32_t y = (fixed_mul_high(coarse(&transform->y, q[0], q[1], q[2]), r) + octave.half) >> octave.shift;
+        uint32_t depth = r >> octave.depth_shift;
         if (depth < VERTEX_DEPTH_MIN) { depth = VERTEX_DEPTH_MIN; }
         *out = (vertex_t){(int16_t)x, (int16_t)y, depth << 8 | light};
+        if (TUILE_LIKELY((uint32_t)(x - region_x) < region_width && (uint32_t)(y - region_y) < region_height)) { continue; }
+        any |= VERTEX_ANY_BEYOND;
         if (TUILE_UNLIKELY((uint32_t)(x - low_x) >= GUARD_SPAN - 2 * GUARD_MARGIN ||
                            (uint32_t)(y - low_y) >= GUARD_SPAN - 2 * GUARD_MARGIN)) {
             *out = outside(light);
-            any_outside = true;
+            any |= VERTEX_ANY_OUTSIDE;
         }
     }
-    return any_outside;
+    return any;
 }
 
-static bool orthographic(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count, vertex_t *out) {
-    bool any_outside = false;
+static unsigned orthographic(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count, vertex_t *out) {
+    const bool lit = normal != NULL;
+    unsigned any = 0;
     for (; count; count--, q += 3, out++) {
-        const uint8_t light = next_light(transform, &normal);
+        const uint8_t light = next_light(transform, &normal, lit);
         *out = vertex_from_fine(transform, q, NULL, light);
-        any_outside |= out->x == VERTEX_OUTSIDE;
+        if (out->x == VERTEX_OUTSIDE) { any |= VERTEX_ANY_OUTSIDE; }
+        if ((uint32_t)(out->x - transform->region_x) >= transform->region_width ||
+            (uint32_t)(out->y - transform->region_y) >= transform->region_height) {
+            any |= VERTEX_ANY_BEYOND;
+        }
     }
-    return any_outside;
+    return any;
 }
 
-TUILE_NOINLINE bool vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count,
-                                 vertex_t *out) {
-    return transform->perspective ? perspective(transform, positions, normals, count, out)
-                                  : orthographic(transform, positions, normals, count, out);
+TUILE_NOINLINE unsigned vertex_stage_region(const transform_t *transform, const int16_t *positions, const int8_t *normals,
+                                            unsigned count, vertex_t *out) {
+    if (!transform->perspective) { return orthographic(transform, positions, normals, count, out); }
+    return normals ? perspective(transform, positions, normals, count, out, true)
+                   : perspective(transform, positions, NULL, count, out, false);
 }
 
 bool vertex_fractions(const transform_t *transform, const int16_t *positions, const int8_t *fractions, unsigned count,

@@ -19,9 +19,21 @@ typedef struct vertex {
 #define GUARD_MARGIN 16
 #define GUARD_CLIP 8
 
-/* Fills out[0 ... count - 1]. normals: 3 x int8 each, or NULL when no light is wanted at the vertices. Returns whether
- * any of them is outside. */
-bool vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out);
+/* What vertex_stage_region tells of the vertices of a cluster. */
+enum {
+    VERTEX_ANY_OUTSIDE = 1, /* some of them is outside */
+    VERTEX_ANY_BEYOND = 2,  /* some of them is beyond the region (transform_region), so that a face may cover pixels there */
+};
+
+/* Fills out[0 ... count - 1]. normals: 3 x int8 each, or NULL when no light is wanted at the vertices. Returns VERTEX_ANY_... */
+unsigned vertex_stage_region(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count,
+                             vertex_t *out);
+
+/* The same; returns whether any of them is outside. */
+static inline bool vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count,
+                                vertex_t *out) {
+    return vertex_stage_region(transform, positions, normals, count, out) & VERTEX_ANY_OUTSIDE;
+}
 
 /* Makes those of out[0 ... count - 1] anew, after vertex_stage, whose positions have fractions: 3 x int8 each, in 1/256. Returns
  * whether any of these is outside. */
