@@ -39,9 +39,12 @@ int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster)
     }
     bin_cluster_at(t, bytes, t->vertex_count + ahead, cluster);
     if (TUILE_HAS(MORPH) && TUILE_UNLIKELY(t->instance->morph != 0)) { frame_morph_cluster(t, cluster); }
-    cluster->any_outside = vertex_stage(&t->transform, cluster->positions, t->config.shade == TUILE_FLAT ? NULL : cluster->normals,
-                                        vertices, cluster->vertices);
+    const unsigned any = vertex_stage_region(&t->transform, cluster->positions,
+                                             t->config.shade == TUILE_FLAT ? NULL : cluster->normals, vertices, cluster->vertices);
+    cluster->any_outside = any & VERTEX_ANY_OUTSIDE;
+    cluster->any_beyond = any != 0;
     if (cluster->fractions) {
+        cluster->any_beyond = true;
         cluster->any_outside |=
             vertex_fractions(&t->transform, cluster->positions, cluster->fractions, vertices, cluster->vertices);
     }
@@ -65,7 +68,7 @@ void bin_cluster_at(const tuile_t *t, const uint8_t *bytes, uint32_t slot, frame
     cluster->plane_normals = (const int8_t *)model->face_normals + 3 * (size_t)first_face;
     cluster->face_normals = t->config.shade == TUILE_FLAT ? cluster->plane_normals : NULL;
     cluster->vertices = t->vertices + slot;
-    cluster->any_outside = true;
+    cluster->any_outside = cluster->any_beyond = true;
     cluster->first_face = t->face_base + first_face;
     cluster->source = (uint16_t)(t->numbers != NULL ? slot - SOURCE_SLOTS : 0);
     cluster->tinted = TUILE_HAS(LIGHTS) && t->numbers != NULL && model->colours != NULL;
@@ -87,6 +90,7 @@ void bin_begin(tuile_t *t) {
     t->textured_source = UINT16_MAX;
     t->vertex_count = t->record_count = 0;
     t->instance = NULL;
+    t->small = true;
     for (uint32_t row = t->pass_first; row < t->pass_end; row++) {
         t->buckets[row] = RECORD_NONE;
     }

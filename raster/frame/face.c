@@ -2,17 +2,10 @@
  */
 #include "../tune.h"
 
-#include "frame.h"
+#include "face.h"
 
 #include "../geometry/wide.h"
 #include "../memory.h"
-
-/* Twice the signed area in (1/16 px)^2, positive for counter-clockwise as seen (the window's y points down). Inside the guard
- * band differences are below 2^15, so the products are below 2^30. */
-TUILE_INLINE int32_t signed_area(const vertex_t *a, const vertex_t *b, const vertex_t *c) {
-    const int32_t x1 = b->x - a->x, y1 = b->y - a->y, x2 = c->x - a->x, y2 = c->y - a->y;
-    return x2 * y1 - x1 * y2;
-}
 
 /* A slot for one record, NULL when the arena is full. */
 TUILE_INLINE record_t *record_claim(tuile_t *t) {
@@ -25,18 +18,7 @@ TUILE_INLINE record_t *record_claim(tuile_t *t) {
 
 /* Hangs the claimed record into the bucket of its first row, or draws it at once. */
 TUILE_INLINE void record_emit(tuile_t *t, record_t *record, int32_t row, uint32_t id) {
-    if (t->record_bytes == sizeof(record_id_t)) {
-        if (t->numbers != NULL) {
-            record_surface_t *surface = frame_record_surface(record);
-            surface->source = t->source;
-            surface->green = surface->blue = record->light;
-            if (TUILE_HAS(LIGHTS) && TUILE_UNLIKELY(t->coloured && t->config.shade == TUILE_FLAT)) {
-                frame_lights_flat(t, surface);
-            }
-        } else {
-            ((record_id_t *)(void *)record)->id = id + 1;
-        }
-    }
+    if (t->record_bytes == sizeof(record_id_t)) { face_extend(t, record, id); }
     t->stats.faces_binned++;
     if (TUILE_UNLIKELY(t->immediate)) {
         t->draw_now(t, t->record_count);
@@ -53,14 +35,6 @@ TUILE_INLINE bool box_in_region(const tuile_t *t, int32_t left, int32_t right, i
     const int32_t row = edge_row(top), row_end = edge_row(bottom), column = edge_row(left), column_end = edge_row(right);
     return row < row_end && column < column_end && row < t->region.bottom && row_end > t->region.top && column < t->region.right &&
            column_end > t->region.left;
-}
-
-TUILE_INLINE int32_t least3(int32_t a, int32_t b, int32_t c) { return a < b ? (a < c ? a : c) : (b < c ? b : c); }
-TUILE_INLINE int32_t most3(int32_t a, int32_t b, int32_t c) { return a > b ? (a > c ? a : c) : (b > c ? b : c); }
-
-static uint8_t flat_light(const tuile_t *t, const int8_t *normal, bool back) {
-    const int32_t sign = back ? -1 : 1;
-    return vertex_light(&t->transform, sign * normal[0], sign * normal[1], sign * normal[2]);
 }
 
 /* One triangle, all corners in the window's guard band: vertices a, b and c behind slot `base`. */
@@ -102,9 +76,14 @@ TUILE_INLINE int bin_triangle(tuile_t *t, uint32_t base, uint32_t a, uint32_t b,
     } else {
         bottom = vb->y > vc->y ? vb->y : vc->y;
     }
-    if (!box_in_region(t, least3(va->x, vb->x, vc->x), most3(va->x, vb->x, vc->x), top, bottom)) {
+    const int32_t left = least3(va->x, vb->x, vc->x), right = most3(va->x, vb->x, vc->x);
+    if (!box_in_region(t, left, right, top, bottom)) {
         t->stats.faces_outside++;
         return FRAME_OK;
+    }
+    if (TUILE_UNLIKELY(right - left >= SHORT_SIDE || bottom - top >= SHORT_SIDE || edge_row(left) < t->region.left ||
+                       edge_row(right) > t->region.right)) {
+        t->small = false;
     }
     record_t *record = record_claim(t);
     if (TUILE_UNLIKELY(record == NULL)) { return FRAME_FULL; }
@@ -454,6 +433,7 @@ int face_bin_all(tuile_t *t, const frame_cluster_t *cluster) {
     t->source = cluster->source;
     const unsigned count = model_u16(cluster->bytes + CLUSTER_AT_FACE_COUNT);
     if (cluster_is_sifted(t, cluster)) { return bin_sifted_triangles(t, cluster, 0, count, false); }
+    if (face_bin_plain(t, cluster, count)) { return FRAME_OK; }
     return cluster->bytes[CLUSTER_AT_KIND] != MODEL_CLUSTER_TRIANGLES  ? bin_polygons(t, cluster, count)
            : cluster->any_outside || (TUILE_HAS(LIGHTS) && t->careful) ? bin_outside_triangles(t, cluster, count)
                                                                        : bin_triangles(t, cluster, count);

@@ -304,6 +304,24 @@ static int begin_light(tuile_t *t, uint8_t **arena) {
     return TUILE_HAS(LIGHTS) && (frame_deferred(t) || t->span_kind == SPAN_IDS) ? frame_lights_begin(t, coloured, arena) : TUILE_OK;
 }
 
+/* Gouraud: one ramp is always there; the others may take an eighth of the arena. Flat: all may take an eighth of what the block has
+ * beyond the least, where no method ever wants more than there is. Returns what is behind them. */
+static uint8_t *ramps_lay_out(tuile_t *t, uint32_t materials) {
+    const bool gouraud = t->span_kind == SPAN_GOURAUD,
+               flat = t->span_kind == SPAN_FLAT && t->numbers == NULL && t->method->draw_now != NULL;
+    const size_t bytes = gouraud ? RAMP_BYTES : RAMP_FLAT_BYTES, ramp = bytes + sizeof(int16_t);
+    const size_t room = (gouraud ? (size_t)(t->arena_end - t->arena) : t->stats.size_bytes - t->stats.least_bytes) / 8;
+    size_t ramps = gouraud || flat ? materials : 0;
+    if (ramps > (gouraud ? 1 : 0) && ramps * ramp > room) { ramps = room / ramp > 1 || flat ? room / ramp : 1; }
+    t->ramp_count = (uint16_t)ramps;
+    t->ramps = (uint16_t *)(void *)t->arena;
+    t->ramp_tags = (int16_t *)(void *)(t->arena + ramps * bytes);
+    for (size_t i = 0; i < ramps; i++) {
+        t->ramp_tags[i] = -1;
+    }
+    return t->arena + TUILE_ALIGN8(ramps * ramp);
+}
+
 int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     uint32_t materials, faces;
     if (t == NULL || scene == NULL) { return TUILE_ERROR_ARGUMENT; }
@@ -323,17 +341,7 @@ int tuile_begin(tuile_t *t, const tuile_scene_t *scene) {
     t->background =
         pixel_pack((pixel_kind_t)t->pixel_kind, PIXEL_RGB(scene->background[0], scene->background[1], scene->background[2]));
 
-    /* One ramp is always there; the others may take an eighth of the arena. */
-    const size_t arena = (size_t)(t->arena_end - t->arena), ramp = RAMP_BYTES + sizeof(int16_t);
-    size_t ramps = t->span_kind != SPAN_GOURAUD ? 0 : materials;
-    if (ramps > 1 && ramps * ramp > arena / 8) { ramps = arena / 8 / ramp > 1 ? arena / 8 / ramp : 1; }
-    t->ramp_count = (uint16_t)ramps;
-    t->ramps = (uint16_t *)(void *)t->arena;
-    t->ramp_tags = (int16_t *)(void *)(t->arena + ramps * RAMP_BYTES);
-    for (size_t i = 0; i < ramps; i++) {
-        t->ramp_tags[i] = -1;
-    }
-    uint8_t *start = t->arena + TUILE_ALIGN8(ramps * ramp);
+    uint8_t *start = ramps_lay_out(t, materials);
     t->keep = t->immediate_only = false;
     t->textured_any = false;
     t->textured_instance = UINT16_MAX;

@@ -29,6 +29,8 @@
 
 #define RAMP_COLOURS 64
 #define RAMP_BYTES (RAMP_COLOURS * 2)
+#define RAMP_FLAT_COLOURS 256 /* flat shading: one for each light */
+#define RAMP_FLAT_BYTES (RAMP_FLAT_COLOURS * 2)
 #define RECORD_NONE 0 /* `next` holds a record's number + 1 */
 
 /* v0 is the slot of a topmost vertex, d1 and d2 lead from it to the others, in counter-clockwise order. d1 = 0: v0 is the slot of a
@@ -153,7 +155,8 @@ typedef struct tuile {
     uint16_t tile_columns, tile_rows;
     uint8_t record_bytes;
     uint8_t next_buffer;
-    /* Ramps, at the start of the arena: ramp m % ramp_count holds material ramp_tags[m % ramp_count]. */
+    /* Ramps, at the start of the arena: ramp m % ramp_count holds material ramp_tags[m % ramp_count]. Flat shading may have none.
+     */
     uint16_t *ramps;
     int16_t *ramp_tags;
     uint16_t ramp_count;
@@ -219,6 +222,7 @@ typedef struct tuile {
     textured_material_t textured_last;
     const int16_t *textured_texcoords;
     bool numbered; /* some face of the tile was drawn as a number */
+    bool small;    /* all triangles of the pass have short sides (fill/edge.h) and touch no column outside of its region */
     raster_tile_t tile;
     span_kind_t span_kind;
     /* The row of tiles that is being drawn. */
@@ -263,6 +267,7 @@ typedef struct frame_cluster {
                                     the first ones */
     vertex_t *vertices;
     bool any_outside;    /* some vertex may need clipping */
+    bool any_beyond;     /* some face may cover pixels outside of the pass's region */
     uint32_t first_face; /* id - 1 of its first face */
     uint16_t source;     /* slot of its source_slot_t where shading is deferred, else 0 */
     bool coloured;       /* its vertices have light in colours */

@@ -1,6 +1,8 @@
 /* The colours of materials, and the ramps from black to full light that Gouraud shading looks its pixels up in. */
 #include "frame.h"
 
+#include "../memory.h"
+
 static bool same_materials(const tuile_instance_t *a, const tuile_instance_t *b) {
     return a->model == b->model && a->materials == b->materials;
 }
@@ -57,8 +59,22 @@ TUILE_INLINE const uint8_t *material_colour(const tuile_t *t, uint32_t material)
                                : instance->model->materials + MODEL_MATERIAL_BYTES * material;
 }
 
-uint32_t frame_flat(const tuile_t *t, const record_t *record) {
+static TUILE_NOINLINE uint32_t flat_make(const tuile_t *t, const record_t *record) {
     return pixel_lit((pixel_kind_t)t->pixel_kind, material_colour(t, record->material), record->light);
+}
+
+/* Colours are kept as they come; 0 in a ramp: none yet, or black, which is made again. */
+uint32_t frame_flat(const tuile_t *t, const record_t *record) {
+    const uint32_t material = record->material;
+    if (TUILE_UNLIKELY(t->ramp_count == 0 || t->span_kind != SPAN_FLAT)) { return flat_make(t, record); }
+    const uint32_t slot = TUILE_LIKELY(material < t->ramp_count) ? material : material % t->ramp_count;
+    uint16_t *ramp = t->ramps + slot * RAMP_FLAT_COLOURS;
+    if (TUILE_UNLIKELY(t->ramp_tags[slot] != (int16_t)material)) {
+        memset(ramp, 0, RAMP_FLAT_BYTES);
+        t->ramp_tags[slot] = (int16_t)material;
+    }
+    if (TUILE_UNLIKELY(ramp[record->light] == 0)) { ramp[record->light] = (uint16_t)flat_make(t, record); }
+    return ramp[record->light];
 }
 
 TUILE_NOINLINE void frame_ramp_make(tuile_t *t, uint32_t material, uint32_t slot) {

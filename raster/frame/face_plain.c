@@ -1,0 +1,104 @@
+/* The loop that most faces go through. No vertex of the cluster is outside of the region, so that no face of it need be compared
+ * with that, and there is room for the records of all of them, so that no record need be compared with that.
+ */
+#include "../tune.h"
+
+#include "face.h"
+
+static bool is_plain(const tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
+    return cluster->bytes[CLUSTER_AT_KIND] == MODEL_CLUSTER_TRIANGLES && !cluster->any_beyond && t->sides == SIDE_FRONT &&
+           !t->immediate && !(TUILE_HAS(LIGHTS) && t->careful) && t->record_count + count < UINT16_MAX - 1 &&
+           (size_t)count * t->record_bytes <=
+               (size_t)(t->arena_end - (uint8_t *)(t->vertices + t->vertex_count)) - (size_t)t->record_count * t->record_bytes;
+}
+
+/* The bucket that is being filled: neighbouring faces mostly start in the same row of tiles. */
+typedef struct face_bucket {
+    uint16_t *list;
+    uint32_t top; /* pixel row */
+} face_bucket_t;
+
+TUILE_INLINE void bucket_at(const tuile_t *t, face_bucket_t *bucket, uint32_t row) {
+    const uint32_t height = t->config.tile_height;
+    if (TUILE_LIKELY(row - bucket->top < height)) { return; }
+    const uint32_t number = row / height;
+    bucket->list = &t->buckets[number];
+    bucket->top = number * height;
+}
+
+/* flat is a constant where this is called. */
+TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count, bool flat) {
+    const vertex_t *const v = cluster->vertices;
+    const uint32_t base = (uint32_t)(v - t->vertices), bytes = t->record_bytes, before = t->record_count;
+    const uint8_t material_base = (uint8_t)t->material_base;
+    const bool larger = bytes == sizeof(record_id_t);
+    const int8_t *normal = cluster->face_normals;
+    uint8_t *at = t->arena_end - (size_t)(before + 1) * bytes;
+    face_bucket_t bucket = {&t->buckets[t->pass_first], (uint32_t)t->pass_first * t->config.tile_height};
+    uint32_t number = before, degenerate = 0, outside = 0;
+    int32_t longest = 0;
+
+    for (const uint8_t *face = cluster->faces, *const end = face + (size_t)4 * count; face != end; face += 4) {
+        uint32_t a = face[0], b = face[1], c = face[2];
+        const int32_t xa = v[a].x, xb = v[b].x, xc = v[c].x;
+        int32_t ya = v[a].y, yb = v[b].y, yc = v[c].y;
+        const int32_t area = (xc - xa) * (yb - ya) - (xb - xa) * (yc - ya);
+        const int8_t *const n = normal;
+        if (flat) { normal += 3; }
+        if (area <= 0) {
+            degenerate += area == 0;
+            continue;
+        }
+        /* The topmost corner becomes the first; the order round the face stays. */
+        if (yb < ya && yb <= yc) {
+            const uint32_t first = a;
+            const int32_t y = ya;
+            a = b, b = c, c = first;
+            ya = yb, yb = yc, yc = y;
+        } else if (yc < ya) {
+            const uint32_t last = c;
+            const int32_t y = yc;
+            c = b, b = a, a = last;
+            yc = yb, yb = ya, ya = y;
+        }
+        const int32_t bottom = yb > yc ? yb : yc, left = least3(xa, xb, xc), right = most3(xa, xb, xc);
+        const int32_t row = edge_row(ya);
+        if (row >= edge_row(bottom) || edge_row(left) >= edge_row(right)) {
+            outside++;
+            continue;
+        }
+        longest |= (right - left) | (bottom - ya); /* SHORT_SIDE is a power of two */
+        record_t *record = (record_t *)(void *)at;
+        at -= bytes;
+        record->v0 = (uint16_t)(base + a);
+        record->d1 = (int8_t)(b - a);
+        record->d2 = (int8_t)(c - a);
+        record->material = (uint8_t)(face[3] + material_base);
+        record->light = flat ? flat_light(t, n, false) : 0;
+        bucket_at(t, &bucket, (uint32_t)row);
+        record->next = *bucket.list;
+        *bucket.list = (uint16_t)++number;
+        if (larger) { face_extend(t, record, cluster->first_face + (uint32_t)(face - cluster->faces) / 4); }
+    }
+    if (longest >= SHORT_SIDE) { t->small = false; }
+    const uint32_t binned = number - before;
+    t->record_count = number;
+    t->stats.faces_binned += binned;
+    t->stats.faces_degenerate += degenerate;
+    t->stats.faces_outside += outside;
+    t->stats.faces_back += count - binned - degenerate - outside;
+}
+
+static TUILE_NOINLINE void bin_flat(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
+    bin_plain(t, cluster, count, true);
+}
+
+static TUILE_NOINLINE void bin_smooth(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
+    bin_plain(t, cluster, count, false);
+}
+
+bool face_bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
+    if (!is_plain(t, cluster, count)) { return false; }
+    cluster->face_normals ? bin_flat(t, cluster, count) : bin_smooth(t, cluster, count);
+    return true;
+}
