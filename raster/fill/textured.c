@@ -11,10 +11,6 @@ TUILE_INLINE uint64_t map_at(const textured_map_t *map, int32_t x, int32_t y) {
     return map->v + map->dx * (uint64_t)(int64_t)x + map->dy * (uint64_t)(int64_t)y;
 }
 
-TUILE_INLINE uint32_t texel_at(const void *texels, const uint16_t *palette, uint32_t index, bool paletted) {
-    return paletted ? palette[((const uint8_t *)texels)[index]] : ((const uint16_t *)texels)[index];
-}
-
 TUILE_INLINE uint16_t ordered(uint32_t colour, bool swap) {
     const uint16_t value = (uint16_t)colour;
     return (uint16_t)(swap ? value >> 8 | value << 8 : value);
@@ -29,7 +25,7 @@ TUILE_INLINE void span_textured(const textured_t *textured, uint16_t *depth, ptr
     for (const uint16_t *const end = depth + count; depth != end; depth++) {
         const uint16_t z = (uint16_t)(shade >> 48);
         if (z > *depth) {
-            const uint32_t texel = texel_at(map->texels, map->palette, textured_index(at, mask), paletted);
+            const uint32_t texel = textured_texel(map->texels, map->palette, textured_index(at, mask), paletted);
             *depth = z;
             depth[samples] = ordered(textured_lit(texel, textured_levels((uint32_t)shade)), swap);
         }
@@ -105,7 +101,7 @@ void textured_run(const textured_map_t *map, int32_t x, int32_t y, int32_t count
                   uint16_t *samples) {
     uint64_t at = map_at(map, x, y);
     for (int32_t i = 0; i < count; i++) {
-        const uint32_t texel = texel_at(map->texels, map->palette, textured_index(at, map->mask), map->palette != NULL);
+        const uint32_t texel = textured_texel(map->texels, map->palette, textured_index(at, map->mask), map->palette != NULL);
         samples[i] = ordered(textured_lit(texel, textured_levels(light)), swap);
         at += map->dx;
         light += light_dx;

@@ -29,7 +29,7 @@ TUILE_INLINE uint64_t textured_pack(int64_t t, int64_t s) { return ((uint64_t)t 
 /* Where a texel lies: its index. */
 TUILE_INLINE uint32_t textured_index(uint64_t at, uint64_t mask) {
     const uint64_t inside = at & mask;
-    return (uint32_t)(inside >> 48) | (uint32_t)inside >> 16;
+    return ((uint32_t)(inside >> 32) | (uint32_t)inside) >> 16; /* of each half the upper 16 bits */
 }
 
 /* light: Q8.24, below 254. */
@@ -38,6 +38,11 @@ TUILE_INLINE uint32_t textured_levels(uint32_t light) { return (light + 0x200000
 TUILE_INLINE uint32_t textured_lit(uint32_t texel, uint32_t levels) {
     const uint32_t red_blue = (texel & 0xf81fu) * levels + 0x10020u, green = (texel & 0x07e0u) * levels + 0x400u;
     return (red_blue >> 6 & 0xf81fu) | (green >> 6 & 0x07e0u);
+}
+
+/* A texel of the map at a place, lit. */
+TUILE_INLINE uint32_t textured_texel(const void *texels, const uint16_t *palette, uint32_t index, bool paletted) {
+    return paletted ? palette[((const uint8_t *)texels)[index]] : ((const uint16_t *)texels)[index];
 }
 
 /* What the spans of a tile are drawn into. */

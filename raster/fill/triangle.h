@@ -24,6 +24,12 @@ typedef struct triangle {
     } side;
 } triangle_t;
 
+/* What of a state is to be kept: `full` is not of short sides. */
+TUILE_INLINE uint16_t triangle_state_bytes(bool is_short) {
+    const size_t bytes = offsetof(triangle_t, side) + (is_short ? 2 * sizeof(short_edge_t) : 2 * sizeof(edge_t));
+    return (uint16_t)((bytes + 7u) & ~(size_t)7u);
+}
+
 /* All sides are short (edge.h); v0 is a topmost vertex. */
 TUILE_INLINE bool triangle_sides_short(const vertex_t *v0, const vertex_t *v1, const vertex_t *v2) {
     const int32_t x0 = v0->x, x1 = v1->x, x2 = v2->x;

@@ -22,8 +22,7 @@ void triangle_bend(triangle_t *t);
 TUILE_INLINE uint64_t triangle_shade_pack(int64_t depth, int64_t light) { return ((uint64_t)depth << 32) + (uint64_t)light; }
 
 TUILE_INLINE bool triangle_depths_near(int32_t z1, int32_t z2) {
-    return (uint32_t)(z1 + TRIANGLE_SMALL_DEPTH) < 2 * TRIANGLE_SMALL_DEPTH &&
-           (uint32_t)(z2 + TRIANGLE_SMALL_DEPTH) < 2 * TRIANGLE_SMALL_DEPTH;
+    return ((uint32_t)(z1 + TRIANGLE_SMALL_DEPTH) | (uint32_t)(z2 + TRIANGLE_SMALL_DEPTH)) < 2 * TRIANGLE_SMALL_DEPTH; /* 2^18 */
 }
 
 /* Both sides from the top down, and what is needed at the bend. mid is not below low. */

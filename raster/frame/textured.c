@@ -4,10 +4,9 @@
 #pragma GCC optimize("no-gcse", "ira-region=one") /* 1.5 % fewer: more stays in registers */
 #endif
 
-#include "frame.h"
+#include "textured.h"
 
 #include "../fill/triangle_set_up.h"
-#include "../surface/textured.h"
 
 /* Another material: textured_last, and the level that its faces want, go with it. */
 static void material_open(tuile_t *t, const tuile_instance_t *instance, uint16_t number, uint8_t material) {
@@ -22,7 +21,7 @@ static void material_open(tuile_t *t, const tuile_instance_t *instance, uint16_t
 }
 
 /* Another source of vertices, or another material of it. */
-static TUILE_NOINLINE void source_open(tuile_t *t, const record_t *record, uint16_t at) {
+TUILE_NOINLINE void textured_source_open(tuile_t *t, const record_t *record, uint16_t at) {
     const source_slot_t *source = (const source_slot_t *)(const void *)&t->vertices[at];
     const tuile_instance_t *instance = &t->scene->instances[source->instance];
     if (t->textured_instance != source->instance || t->textured_number != record->material) {
@@ -35,16 +34,9 @@ static TUILE_NOINLINE void source_open(tuile_t *t, const record_t *record, uint1
                             2 * ((ptrdiff_t)source->first_vertex - at - (ptrdiff_t)SOURCE_SLOTS);
 }
 
-TUILE_INLINE texture_corner_t corner_at(const vertex_t *vertex, const int16_t *texcoords) {
-    return (texture_corner_t){vertex->x, vertex->y, vertex->depth_light >> 8, texcoords[0], texcoords[1]};
-}
-
 bool textured_start(tuile_t *t, textured_t *textured, const record_t *record, int32_t row) {
     const record_surface_t *extra = (const record_surface_t *)(const void *)record;
-    if (TUILE_UNLIKELY(t->textured_source != extra->source || t->textured_number != record->material)) {
-        source_open(t, record, extra->source);
-    }
-    if (!t->textured_fits) { return false; }
+    if (!textured_fits(t, record)) { return false; }
     const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
     triangle_t *triangle = &textured->triangle;
     if (TUILE_LIKELY(t->config.shade == TUILE_GOURAUD)) {
@@ -55,10 +47,7 @@ bool textured_start(tuile_t *t, textured_t *textured, const record_t *record, in
         triangle->shade += (uint64_t)record->light << 24;
     }
     if (TUILE_UNLIKELY(!triangle->is_short)) { return false; }
-    const int16_t *texcoords = t->textured_texcoords + 2 * (ptrdiff_t)record->v0;
-    const texture_corner_t a = corner_at(v0, texcoords), b = corner_at(v1, texcoords + 2 * record->d1),
-                           c = corner_at(v2, texcoords + 2 * record->d2);
-    if (!textured_map(&textured->map, &t->textured_last, &a, &b, &c, 8u - t->textured_last.uv_bits)) { return false; }
+    if (!textured_face(t, &textured->map, record, 8 - v0->x, 8 - v0->y)) { return false; }
     triangle->value = 0;
     triangle->head.size_bytes = (sizeof(textured_t) + 7u) & ~7u;
     t->textured_any = true;

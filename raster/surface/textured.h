@@ -35,12 +35,13 @@ TUILE_INLINE uint32_t textured_size(int32_t x) { return x < 0 ? 0u - (uint32_t)x
 
 /* A face of such a material with short sides, in white light, its corners counter-clockwise; s and t of corners times 2^bits are
  * texels, Q.8. False: it takes the other way, since it is more than 128 texels across, its depths are too far apart (texture.h:
- * here sums stand for the ranges), or its level has more than 65536 texels or is a line.
+ * here sums stand for the ranges), or its level has more than 65536 texels or is a line. v is that of the pixel whose centre lies
+ * to_x, to_y sixteenths of a pixel from a.
  *
  * Gradients by the reciprocal of the area as in surface/texture_affine.h, off by 2^-10 texel a pixel, and floored for a sixteenth
  * of a pixel, 2^-12 a pixel: over 2 * 32 pixels 5/64 texel. */
-TUILE_INLINE bool textured_map(textured_map_t *map, textured_material_t *m, const texture_corner_t *a, const texture_corner_t *b,
-                               const texture_corner_t *c, unsigned bits) {
+TUILE_INLINE bool textured_map_at(textured_map_t *map, textured_material_t *m, const texture_corner_t *a, const texture_corner_t *b,
+                                  const texture_corner_t *c, unsigned bits, intptr_t to_x, intptr_t to_y) {
     const int32_t x1 = b->x - a->x, y1 = b->y - a->y, x2 = c->x - a->x, y2 = c->y - a->y;
     const int32_t s1 = (b->s - a->s) * (1 << bits), t1 = (b->t - a->t) * (1 << bits), s2 = (c->s - a->s) * (1 << bits),
                   t2 = (c->t - a->t) * (1 << bits);
@@ -63,15 +64,21 @@ TUILE_INLINE bool textured_map(textured_map_t *map, textured_material_t *m, cons
                                       (int64_t)(s2 * y1 - s1 * y2) * reciprocal >> down),
                    dy = textured_pack((int64_t)(t1 * x2 - t2 * x1) * reciprocal >> down_t,
                                       (int64_t)(s1 * x2 - s2 * x1) * reciprocal >> down);
-    const uint64_t at_corner = textured_pack(a->t * ((int64_t)256 << (bits + level->width)) >> level->number,
-                                             a->s * ((int64_t)256 << bits) >> level->number);
-    map->v = at_corner + dx * (uint64_t)(int64_t)(8 - a->x) + dy * (uint64_t)(int64_t)(8 - a->y);
+    const uint64_t at_corner = textured_pack(fixed_shift_left64(a->t, 8 + bits + level->width) >> level->number,
+                                             fixed_shift_left64(a->s, 8 + bits) >> level->number);
+    map->v = at_corner + dx * (uint64_t)to_x + dy * (uint64_t)to_y;
     map->dx = dx << 4;
     map->dy = dy << 4;
     map->mask = level->mask;
     map->texels = level->texels;
     map->palette = m->palette;
     return true;
+}
+
+/* The same with v that of pixel (0, 0). */
+TUILE_INLINE bool textured_map(textured_map_t *map, textured_material_t *m, const texture_corner_t *a, const texture_corner_t *b,
+                               const texture_corner_t *c, unsigned bits) {
+    return textured_map_at(map, m, a, b, c, bits, 8 - a->x, 8 - a->y);
 }
 
 #endif

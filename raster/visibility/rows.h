@@ -13,8 +13,8 @@
 #ifndef TUILE_VISIBILITY_ROWS_H
 #define TUILE_VISIBILITY_ROWS_H
 
-#include "../frame/frame.h"
-
+#include "../fill/small.h"
+#include "../frame/textured.h"
 #include "../memory.h"
 
 /* How a method draws its rows: `tested` below, a constant wherever these functions are called. */
@@ -52,7 +52,7 @@ TUILE_INLINE bool face_start(tuile_t *t, state_t *state, const record_t *face, c
         } else {
             triangle_paint_start(&state->triangle, v0, v1, v2, row, t->span_kind == SPAN_GOURAUD);
         }
-        state->head.size_bytes = (sizeof(triangle_t) + 7u) & ~7u;
+        state->head.size_bytes = triangle_state_bytes(state->triangle.is_short);
         state->triangle.value = t->span_kind == SPAN_GOURAUD ? record->material : frame_value(t, record, number);
     } else {
         const polygon_ring_t ring = frame_record_ring(t, face);
@@ -181,6 +181,14 @@ static inline void walk_end(tuile_t *t, walk_t *walk) {
     t->uncarried = walk->left;
 }
 
+/* Appends a record to the list of those that go on without a state. */
+TUILE_INLINE void walk_leave(const tuile_t *t, walk_t *walk, uint32_t number) {
+    record_t *record = frame_record(t, number);
+    record->next = RECORD_NONE;
+    *(walk->left_end ? walk->left_end : &walk->left) = (uint16_t)(number + 1u);
+    walk->left_end = &record->next;
+}
+
 /* Appends a state to the new stream; a record that finds no room there goes into the list of those without one. */
 static inline void walk_keep(tuile_t *t, walk_t *walk, const state_t *state) {
     const size_t size = state->head.size_bytes;
@@ -189,15 +197,7 @@ static inline void walk_keep(tuile_t *t, walk_t *walk, const state_t *state) {
         walk->out += size;
         return;
     }
-    const uint16_t number = (uint16_t)(state->head.record + 1u);
-    record_t *record = frame_record(t, state->head.record);
-    record->next = RECORD_NONE;
-    if (walk->left_end) {
-        *walk->left_end = number;
-    } else {
-        walk->left = number;
-    }
-    walk->left_end = &record->next;
+    walk_leave(t, walk, state->head.record);
     t->stats.faces_resumed++;
 }
 
@@ -220,12 +220,85 @@ TUILE_INLINE state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_
     }
 }
 
+/* The paint of a record's face. False: it cannot be drawn so. */
+TUILE_INLINE bool small_prepare(tuile_t *t, const record_t *record, uint32_t number, small_kind_t kind, bool smooth,
+                                const small_face_t *face, small_paint_t *paint) {
+    if (kind == SMALL_FLAT) {
+        paint->value = (uint16_t)frame_value(t, record, number);
+    } else if (kind == SMALL_TEXTURED) {
+        const record_surface_t *extra = (const record_surface_t *)(const void *)record;
+        if (TUILE_UNLIKELY(!textured_fits(t, record)) ||
+            (!smooth && (extra->green != record->light || extra->blue != record->light))) {
+            return false;
+        }
+        return textured_face(t, &paint->map, record, face->to_x, face->to_y);
+    }
+    return true;
+}
+
+/* Draws small triangles without a state, up to the next face that is not one, or that is carried. */
+TUILE_INLINE void walk_smalls(tuile_t *t, walk_t *walk, small_kind_t kind) {
+    small_tile_t tile = small_tile(&t->tile);
+    const uint8_t *const arena_end = t->arena_end;
+    const vertex_t *const vertices = t->vertices;
+    const uintptr_t record_bytes = kind == SMALL_GOURAUD ? sizeof(record_t) : t->record_bytes;
+    const bool small = t->small, smooth = kind == SMALL_GOURAUD || (kind == SMALL_TEXTURED && t->config.shade == TUILE_GOURAUD);
+    const uintptr_t carried = walk->old == walk->old_end ? UINTPTR_MAX : ((const state_t *)(const void *)walk->old)->head.record;
+    small_paint_t paint = {0};
+    uintptr_t list = walk->list;
+    uint32_t count = 0;
+    int32_t material = -1;
+    if (kind == SMALL_TEXTURED) {
+        tile.colour = (t->working ? (uint16_t *)t->working : (uint16_t *)(void *)t->colours[t->next_buffer]) - tile.depth;
+    }
+    while (list - 1u < carried) { /* RECORD_NONE is not */
+        const record_t *record = (const record_t *)(const void *)(arena_end - list * record_bytes);
+        if (TUILE_UNLIKELY(!frame_record_is_triangle(record))) { break; }
+        const uint32_t number = (uint32_t)list - 1u;
+        const vertex_t *v0 = vertices + record->v0, *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+        small_face_t face;
+        if (TUILE_UNLIKELY(!small_open(&face, v0, v1, v2, &tile, small))) { break; }
+        if (kind == SMALL_GOURAUD) {
+            if (TUILE_UNLIKELY(record->material != material)) {
+                material = record->material;
+                paint.ramp = frame_ramp(t, record->material);
+            }
+        } else if (!small_prepare(t, record, number, kind, smooth, &face, &paint)) {
+            break;
+        }
+        const bool reaches = small_fill(&face, v0, v1, v2, &tile, kind, smooth, record->light, &paint);
+        list = record->next;
+        count++;
+        if (reaches) { walk_leave(t, walk, number); }
+    }
+    walk->list = (uint16_t)list;
+    t->stats.faces_setup += count;
+    if (kind == SMALL_TEXTURED && count) { t->textured_any = true; }
+}
+
 /* All faces of the row through the only column. */
 TUILE_INLINE void row_draw(tuile_t *t, int32_t top, unsigned tested) {
     walk_t walk;
     state_t local, *state;
     const record_t *record;
     walk_begin(t, &walk);
+    if (tested == ROWS_TEXTURED ? t->pixel_kind == PIXEL_RGB565_BE
+                                : tested == ROWS_TESTED && t->config.tie == TUILE_TIE_FIRST && t->span_kind != SPAN_IDS) {
+        for (;;) {
+            if (tested == ROWS_TEXTURED) {
+                walk_smalls(t, &walk, SMALL_TEXTURED);
+            } else if (t->span_kind == SPAN_GOURAUD) {
+                walk_smalls(t, &walk, SMALL_GOURAUD);
+            } else {
+                walk_smalls(t, &walk, SMALL_FLAT);
+            }
+            state = walk_next(t, &walk, &local, top, &record, tested);
+            if (state == NULL) { break; }
+            if (state_fill(t, state, record, tested)) { walk_keep(t, &walk, state); }
+        }
+        walk_end(t, &walk);
+        return;
+    }
     while ((state = walk_next(t, &walk, &local, top, &record, tested)) != NULL) {
         if (state_fill(t, state, record, tested)) { walk_keep(t, &walk, state); }
     }
@@ -275,8 +348,8 @@ TUILE_INLINE void column_draw(tuile_t *t, int32_t top, unsigned tested) {
         at += carried->head.size_bytes;
         if (!state_in_columns(t, carried)) { continue; }
         const record_t *record = frame_record(t, carried->head.record);
-        if (tested != ROWS_TEXTURED && frame_record_is_triangle(record)) {
-            local.triangle = carried->triangle;
+        if (tested != ROWS_TEXTURED && TUILE_LIKELY(frame_record_is_triangle(record) && carried->triangle.is_short)) {
+            memcpy(&local, carried, triangle_state_bytes(true));
         } else {
             memcpy(&local, carried, carried->head.size_bytes);
         }

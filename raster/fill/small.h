@@ -1,0 +1,260 @@
+/* Small triangles under a z-buffer, set up and filled in one go, so that their state is never written to memory: most faces of a
+ * mesh begin and end within one row of tiles, and for one that does not it is cheaper to be set up again below than to be carried
+ * there. The numbers are those of fill/triangle.c, to the bit.
+ *
+ * Small: all sides short (fill/edge.h), and within the tile's columns. Columns are counted from that of the top corner, so that
+ * |column| <= 32. Numbers that fit in 32 bits are held as whole registers: where those have 64 bits nothing is widened again and
+ * again.
+ */
+#ifndef TUILE_FILL_SMALL_H
+#define TUILE_FILL_SMALL_H
+
+#include "textured.h"
+#include "triangle_set_up.h"
+
+typedef intptr_t small_int_t;
+
+/* How a triangle is drawn: a constant wherever these functions are called. */
+typedef enum small_kind {
+    SMALL_FLAT,
+    SMALL_GOURAUD,
+    SMALL_TEXTURED, /* in light as it is interpolated, RGB565, high byte first */
+} small_kind_t;
+
+/* What is drawn, by kind. */
+typedef struct small_paint {
+    uint16_t value;       /* flat */
+    const uint16_t *ramp; /* Gouraud: 64 colours */
+    textured_map_t map;   /* textured; v is that of the pixel (row, column) of small_face_t */
+} small_paint_t;
+
+/* A tile as small triangles see it. */
+typedef struct small_tile {
+    uint16_t *depth;
+    ptrdiff_t colour;        /* from a pixel's depth to its colour, in pixels of 2 bytes */
+    small_int_t stride;      /* pixels */
+    small_int_t origin;      /* of pixel (0, 0) of the window, counted from `depth` */
+    small_int_t top, bottom; /* rows of the window */
+    int32_t left, width;     /* corners whose x - left is in 0 ... width - 1 touch no column beside the tile; 1/16 pixel */
+} small_tile_t;
+
+TUILE_INLINE small_tile_t small_tile(const raster_tile_t *tile) {
+    return (small_tile_t){.depth = tile->depth,
+                          .colour = (uint16_t *)tile->colour - tile->depth,
+                          .stride = tile->stride_px,
+                          .origin = -((small_int_t)tile->top * tile->stride_px + tile->left),
+                          .top = tile->top,
+                          .bottom = tile->bottom,
+                          .left = 16 * tile->left - 7,
+                          .width = 16 * (tile->right - tile->left + 1)};
+}
+
+/* Corners relative to the first one, which is a topmost: 1/16 pixel. */
+typedef struct small_corners {
+    small_int_t x0, y0, x1, y1, x2, y2;
+} small_corners_t;
+
+TUILE_INLINE bool small_within(small_int_t difference) { return (uint32_t)(difference + (SHORT_SIDE - 1)) <= 2 * SHORT_SIDE - 2; }
+
+TUILE_INLINE bool small_in_columns(const small_tile_t *tile, small_int_t x) {
+    return (uint32_t)(x - tile->left) < (uint32_t)tile->width;
+}
+
+TUILE_INLINE bool small_fits(const small_corners_t *c, const small_tile_t *tile) {
+    return small_within(c->x1) && small_within(c->x2) && small_within(c->x1 - c->x2) && (c->y1 | c->y2) < SHORT_SIDE &&
+           small_in_columns(tile, c->x0) && small_in_columns(tile, c->x0 + c->x1) && small_in_columns(tile, c->x0 + c->x2);
+}
+
+/* What is affine over the triangle, at the centre of a pixel: to_x right and to_y below the top corner, sixteenths of a pixel, 1
+ * ... 16 and 1 ... 2^9. |gradients| < 2^46: the sum stays below 2^57. */
+TUILE_INLINE uint64_t small_at(gradient_t g, int64_t at_corner, small_int_t to_x, small_int_t to_y) {
+    return (uint64_t)(at_corner + ((g.dx * to_x + g.dy * to_y) >> 4));
+}
+
+TUILE_INLINE triangle_gradients_t small_gradients(const small_corners_t *c, const vertex_t *v0, const vertex_t *v1,
+                                                  const vertex_t *v2, bool gouraud) {
+    const int32_t x1 = (int32_t)c->x1, y1 = (int32_t)c->y1, x2 = (int32_t)c->x2, y2 = (int32_t)c->y2, area = x2 * y1 - x1 * y2;
+    const int32_t z0 = (int32_t)(v0->depth_light >> 8), z1 = (int32_t)(v1->depth_light >> 8) - z0,
+                  z2 = (int32_t)(v2->depth_light >> 8) - z0;
+    const int32_t light0 = (int32_t)(v0->depth_light & 0xff), light1 = (int32_t)(v1->depth_light & 0xff) - light0,
+                  light2 = (int32_t)(v2->depth_light & 0xff) - light0;
+    triangle_gradients_t g = {{0, 0}, {0, 0}};
+    if (TUILE_LIKELY(triangle_depths_near(z1, z2))) {
+        const int32_t reciprocal = INT32_MAX / area;
+        g.depth = gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12);
+        if (gouraud) { g.light = gradient_small(light1, light2, x1, y1, x2, y2, reciprocal, 28); }
+    } else {
+        g.depth = gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
+        if (gouraud) { g.light = gradient_exact(light1, light2, x1, y1, x2, y2, area, 28); }
+    }
+    return g;
+}
+
+typedef struct small_side {
+    small_int_t x, slope; /* short_edge_t */
+} small_side_t;
+
+/* One side at the centre of a row `t` sixteenths below its upper end, whose x is counted from the column's centre: fill/edge.h. */
+TUILE_INLINE small_side_t small_side(small_int_t x, small_int_t dx, small_int_t dy, small_int_t t) {
+    const int32_t slope = fixed_floor_div((int32_t)dx * (1 << 20), (int32_t)dy);
+    return (small_side_t){x * (1 << 16) + ((t * slope) >> 4) + ((1 << 20) - 1), slope};
+}
+
+/* The rows of a triangle that are being filled. */
+typedef struct small_rows {
+    small_side_t a, b;   /* left and right, in columns */
+    uint64_t at, dx, dy; /* depth and light in the column, and per pixel right and down: fill/triangle.c */
+    uint64_t map;        /* of the texture, in the column */
+    uint16_t *depth;     /* of the column */
+} small_rows_t;
+
+TUILE_INLINE void small_span_flat(uint16_t *depth, const uint16_t *end, ptrdiff_t colour, uint32_t shade, uint32_t dx,
+                                  uint16_t value) {
+    do {
+        const uint16_t z = (uint16_t)(shade >> 16);
+        if (z > *depth) {
+            *depth = z;
+            depth[colour] = value;
+        }
+        shade += dx;
+    } while (++depth != end);
+}
+
+TUILE_INLINE void small_span_gouraud(uint16_t *depth, const uint16_t *end, ptrdiff_t colour, uint64_t shade, uint64_t dx,
+                                     const uint16_t *ramp) {
+    do {
+        const uint16_t z = (uint16_t)(shade >> 48);
+        if (z > *depth) {
+            *depth = z;
+            depth[colour] = ramp[(uint32_t)shade >> 26];
+        }
+        shade += dx;
+    } while (++depth != end);
+}
+
+TUILE_INLINE void small_span_textured(uint16_t *depth, const uint16_t *end, ptrdiff_t colour, uint64_t shade, uint64_t dx,
+                                      const textured_map_t *map, uint64_t at, bool paletted) {
+    do {
+        const uint16_t z = (uint16_t)(shade >> 48);
+        if (z > *depth) {
+            const uint32_t texel = textured_texel(map->texels, map->palette, textured_index(at, map->mask), paletted);
+            const uint16_t lit = (uint16_t)textured_lit(texel, textured_levels((uint32_t)shade));
+            *depth = z;
+            depth[colour] = (uint16_t)(lit >> 8 | lit << 8);
+        }
+        shade += dx;
+        at += map->dx;
+    } while (++depth != end);
+}
+
+/* Pixels from ... to - 1 of a row, from < to. */
+TUILE_INLINE void small_span(const small_rows_t *r, const small_tile_t *tile, small_int_t from, small_int_t to, small_kind_t kind,
+                             const small_paint_t *paint) {
+    uint16_t *depth = r->depth + from;
+    const uint16_t *const end = r->depth + to;
+    const uint64_t shade = r->at + r->dx * (uint64_t)from;
+    if (kind == SMALL_FLAT) {
+        small_span_flat(depth, end, tile->colour, (uint32_t)(shade >> 32), (uint32_t)(r->dx >> 32), paint->value);
+    } else if (kind == SMALL_GOURAUD) {
+        small_span_gouraud(depth, end, tile->colour, shade, r->dx, paint->ramp);
+    } else if (paint->map.palette) {
+        small_span_textured(depth, end, tile->colour, shade, r->dx, &paint->map, r->map + paint->map.dx * (uint64_t)from, true);
+    } else {
+        small_span_textured(depth, end, tile->colour, shade, r->dx, &paint->map, r->map + paint->map.dx * (uint64_t)from, false);
+    }
+}
+
+TUILE_INLINE small_int_t small_step(small_side_t side) { /* may wrap behind the last row */
+    return (small_int_t)((uintptr_t)side.x + (uintptr_t)side.slope);
+}
+
+/* count > 0. */
+TUILE_INLINE void small_rows_fill(small_rows_t *r, const small_tile_t *tile, small_int_t count, small_kind_t kind,
+                                  const small_paint_t *paint) {
+    do {
+        const small_int_t from = r->a.x >> 20, to = r->b.x >> 20;
+        if (from < to) { small_span(r, tile, from, to, kind, paint); }
+        r->a.x = small_step(r->a);
+        r->b.x = small_step(r->b);
+        r->at += r->dy;
+        if (kind == SMALL_TEXTURED) { r->map += paint->map.dy; }
+        r->depth += tile->stride;
+    } while (--count);
+}
+
+/* Which corner is where: `low` is the lowest one, which the long side ends at. */
+typedef struct small_bend {
+    small_int_t mid_x, mid_y, low_x, low_y;
+    bool left; /* the corner between is on the left side */
+} small_bend_t;
+
+TUILE_INLINE void small_turn(small_rows_t *r, bool left, small_side_t side) {
+    if (left) {
+        r->a = side;
+    } else {
+        r->b = side;
+    }
+}
+
+/* A small triangle in a tile: where it begins there. */
+typedef struct small_face {
+    small_corners_t corners;
+    small_int_t row, column; /* the pixel that all is counted from */
+    small_int_t to_x, to_y;  /* its centre from the top corner, sixteenths of a pixel */
+} small_face_t;
+
+/* v0 is a topmost corner, v0 v1 v2 is counter-clockwise as seen, with an area above 0, and it spans some row of the tile. False: it
+ * is not small. known: it is. */
+TUILE_INLINE bool small_open(small_face_t *face, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
+                             const small_tile_t *tile, bool known) {
+    const small_corners_t c = {v0->x, v0->y, v1->x - v0->x, v1->y - v0->y, v2->x - v0->x, v2->y - v0->y};
+    const small_int_t first = (c.y0 + 7) >> 4;
+    face->corners = c;
+    face->row = first > tile->top ? first : tile->top;
+    face->column = (c.x0 + 7) >> 4;
+    face->to_x = 16 * face->column + 8 - c.x0;
+    face->to_y = 16 * face->row + 8 - c.y0;
+    return known || small_fits(&c, tile);
+}
+
+/* Draws it from the tile's first row to its last. smooth: light is interpolated; else it is `light`. True: it reaches below. */
+TUILE_INLINE bool small_fill(const small_face_t *face, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
+                             const small_tile_t *tile, small_kind_t kind, bool smooth, uint8_t light, const small_paint_t *paint) {
+    const small_corners_t c = face->corners;
+    const small_int_t to_x = face->to_x, to_y = face->to_y, row = face->row;
+    const triangle_gradients_t g = small_gradients(&c, v0, v1, v2, smooth);
+    small_rows_t r;
+    r.at = triangle_shade_pack((int64_t)small_at(g.depth, triangle_depth_of(v0), to_x, to_y), 0);
+    r.dx = triangle_shade_pack(g.depth.dx, 0);
+    r.dy = triangle_shade_pack(g.depth.dy, 0);
+    if (smooth) {
+        r.at += small_at(g.light, triangle_light_of(v0), to_x, to_y);
+        r.dx += (uint64_t)g.light.dx;
+        r.dy += (uint64_t)g.light.dy;
+    } else if (kind == SMALL_TEXTURED) {
+        r.at += (uint64_t)light << 24;
+    }
+    if (kind == SMALL_TEXTURED) { r.map = paint->map.v; }
+    r.depth = tile->depth + (tile->origin + row * tile->stride + face->column);
+
+    small_bend_t bend = {c.x1, c.y1, c.x2, c.y2, true};
+    if (c.y1 >= c.y2) { bend = (small_bend_t){c.x2, c.y2, c.x1, c.y1, false}; }
+    const small_int_t row_mid = (c.y0 + bend.mid_y + 7) >> 4, row_end = (c.y0 + bend.low_y + 7) >> 4,
+                      end = row_end < tile->bottom ? row_end : tile->bottom;
+    small_int_t from = row;
+    r.a = r.b = small_side(-to_x, bend.low_x, bend.low_y, to_y);
+    if (row < row_mid) {
+        from = row_mid < end ? row_mid : end;
+        small_turn(&r, bend.left, small_side(-to_x, bend.mid_x, bend.mid_y, to_y));
+        small_rows_fill(&r, tile, from - row, kind, paint);
+    }
+    if (from < end) {
+        small_turn(
+            &r, bend.left,
+            small_side(bend.mid_x - to_x, bend.low_x - bend.mid_x, bend.low_y - bend.mid_y, 16 * from + 8 - c.y0 - bend.mid_y));
+        small_rows_fill(&r, tile, end - from, kind, paint);
+    }
+    return row_end > tile->bottom;
+}
+
+#endif
