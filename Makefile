@@ -211,6 +211,9 @@ include firmware/firmware.mk tests/emulators/emulators.mk tests/emulators/pico.m
 SIZE ?= 320x240
 TILE ?= 320x24 32x32 320x240
 MODEL ?= $(SPIDER) $(BUNNY_6000)
+$(OBJ)/bench $(OBJ)/guest_scene: $(OBJ)/tests/bench/turntable.o
+$(OBJ)/guest_scene: $(OBJ)/tests/bench/qemu/guest_scene.o $(SIM_LIB_OBJ) $(CORE_OBJ)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
 $(OBJ)/bench: $(OBJ)/tests/bench/bench.o $(SIM_LIB_OBJ) $(CORE_OBJ)
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
 

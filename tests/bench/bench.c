@@ -1,9 +1,7 @@
 /* What is counted by `make bench` and `make bench-methods`: eight frames of a turning model, drawn by bench_frame, under callgrind.
  *
- * The scene: camera at the origin looking along -z, vertical field of view 45 degrees, near 1, far 10; the model turned about y by
- * i * 360 / 8 degrees and moved to (0, 0, -3); one directional light along (-0.4, -0.6, -1), ambient 0.15, diffuse 0.75. A model
- * whose bounding sphere is not about 1 in radius is centred and scaled to 1, and the output says so. With EYE, AT and FOV (as of
- * tuile render, model units) the camera stands there and the model turns about AT.
+ * The scene is that of turntable.h. With EYE, AT and FOV (as of tuile render, model units) the camera stands there and the model
+ * turns about AT.
  *
  * The first frame is drawn twice more, and not counted: with a trace, for the pixels that its faces cover, and in a block of as
  * many bytes as the figures say that it needs, to see that it does.
@@ -16,13 +14,14 @@
 #include "../../sim/mesh/mesh.h"
 #include "../../sim/options.h"
 #include "../../sim/view.h"
+#include "turntable.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define FRAMES 8
+#define FRAMES TURNTABLE_FRAMES
 #define EXIT_NO_METHOD 3
 
 /* Callgrind collects in here only; not static, so that its name stays. */
@@ -44,54 +43,6 @@ __attribute__((noinline)) int bench_frame(tuile_t *renderer, const tuile_scene_t
 static int fail(const char *what) {
     (void)fprintf(stderr, "bench: %s\n", what);
     return 1;
-}
-
-/* ---- the scene ------------------------------------------------------------------------------------------------ */
-
-static void place(tuile_instance_t *instance, const tuile_model_t *model, unsigned number) {
-    const double step = ldexp((double)model->step.mantissa, model->step.exponent), radius = step * model->radius;
-    const bool as_it_is = radius > 0.5 && radius < 1.9;
-    const double scale = as_it_is ? 1.0 : 1.0 / radius;
-    int exponent;
-    const double mantissa = frexp(scale, &exponent);
-    double centre[3] = {0, 0, 0};
-
-    instance->model = model;
-    instance->pose.scale = (tuile_scale_t){(uint32_t)ldexp(mantissa, 31), exponent - 31};
-    if (as_it_is) { instance->pose.scale = TUILE_SCALE_ONE; }
-    tuile_rotation(instance->pose.rotation, 1, (bam16_t)(number * (65536u / FRAMES)));
-    for (int i = 0; i < 3 && !as_it_is; i++) {
-        centre[i] = scale * step * (model->offset[i] + (double)model->centre[i]);
-    }
-    for (int i = 0; i < 3; i++) {
-        double at = i == 2 ? -3.0 : 0.0;
-        for (int j = 0; j < 3; j++) {
-            at -= instance->pose.rotation[i][j] / (double)TUILE_ONE_Q30 * centre[j];
-        }
-        instance->pose.translation[i] = TUILE_Q16(at);
-    }
-    if (number == 0 && !as_it_is) { (void)printf("scaled by %g\n", scale); }
-}
-
-static void turntable(view_t *view, uint16_t width, uint16_t height) {
-    static const q16_16_t eye[3] = {0, 0, 0}, at[3] = {0, 0, -65536}, up[3] = {0, 65536, 0};
-    const double length = sqrt(0.4 * 0.4 + 0.6 * 0.6 + 1.0);
-    tuile_camera_t *camera = &view->scene.camera;
-    memset(view, 0, sizeof *view);
-    view->light = (tuile_light_t){
-        {(q2_14_t)lround(-0.4 / length * 16384), (q2_14_t)lround(-0.6 / length * 16384), (q2_14_t)lround(-1 / length * 16384)},
-        191};
-    view->scene.instances = &view->instance;
-    view->scene.instance_count = 1;
-    view->scene.lights = &view->light;
-    view->scene.light_count = 1;
-    view->scene.ambient = 38;
-    (void)tuile_camera_look_at(camera, eye, at, up);
-    camera->focal_x = camera->focal_y = tuile_focal_px(8192, height);
-    camera->centre_x = width * 32768;
-    camera->centre_y = height * 32768;
-    camera->near = 65536;
-    camera->far = 655360;
 }
 
 static bool numbers(const char *text, double *out) { return sscanf(text, "%lf,%lf,%lf", &out[0], &out[1], &out[2]) == 3; }
@@ -154,7 +105,7 @@ static void turn(bench_t *b, unsigned number) {
     if (b->aimed) {
         view_frame(&b->view, number);
     } else {
-        place(&b->view.instance, &b->model, number);
+        turntable_place(&b->view.instance, &b->model, number);
     }
 }
 
@@ -240,7 +191,7 @@ int main(int count, char **arguments) {
         if (!numbers(arguments[10], o.eye) || !numbers(arguments[11], o.at)) { return fail("EYE and AT are three numbers each"); }
         if (view_make(&b.view, &o, &b.model, config->width, config->height, FRAMES, &error) != 0) { return fail(error.text); }
     } else {
-        turntable(&b.view, config->width, config->height);
+        turntable_open(&b.view, config->width, config->height);
     }
     const int status = run(&b);
     free(b.block);
