@@ -53,8 +53,66 @@ TUILE_INLINE int64_t fixed_floor_div64(int64_t a, int64_t b) {
     return quotient - (a % b < 0);
 }
 
+/* Machines that multiply 32 bits by 32 to 32 only (Cortex-M0+) make longer products of halves: a third of what the compiler's
+ * functions for any two 64-bit numbers take. */
+#if defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__)
+#define FIXED_BY_HALVES 1
+#else
+#define FIXED_BY_HALVES 0
+#endif
+
+TUILE_INLINE int64_t fixed_mul_wide_by_halves(int32_t a, int32_t b) {
+    const int32_t ah = a >> 16, bh = b >> 16;
+    const uint32_t al = (uint32_t)a & 0xffffu, bl = (uint32_t)b & 0xffffu, low = al * bl;
+    const int32_t cross = ah * (int32_t)bl; /* >= -2^31, < 2^31 - 2^15 */
+    const int32_t other = bh * (int32_t)al;
+    const uint32_t middle = (low >> 16) + ((uint32_t)cross & 0xffffu) + ((uint32_t)other & 0xffffu); /* < 3 * 2^16 */
+    const int32_t high = ah * bh + (cross >> 16) + (other >> 16) + (int32_t)(middle >> 16);
+    return (int64_t)((uint64_t)(uint32_t)high << 32 | middle << 16 | (low & 0xffffu));
+}
+
+/* a * b, exactly. */
+TUILE_INLINE int64_t fixed_mul_wide(int32_t a, int32_t b) {
+    return FIXED_BY_HALVES ? fixed_mul_wide_by_halves(a, b) : (int64_t)a * b;
+}
+
+TUILE_INLINE uint64_t fixed_mul_part_by_halves(uint64_t a, uint32_t b) {
+    const uint32_t low = (uint32_t)a;
+    const uint32_t first = (low & 0xffffu) * b, second = (low >> 16) * b, third = (uint32_t)(a >> 32) * b;
+    return first + ((uint64_t)second << 16) + ((uint64_t)third << 32);
+}
+
+/* a * b modulo 2^64, 0 <= b < 2^16. */
+TUILE_INLINE uint64_t fixed_mul_part(uint64_t a, uint32_t b) { return FIXED_BY_HALVES ? fixed_mul_part_by_halves(a, b) : a * b; }
+
+/* The same for a negative b too, |b| < 2^16. */
+TUILE_INLINE uint64_t fixed_mul_signed_part(uint64_t a, intptr_t b) {
+    if (!FIXED_BY_HALVES) { return a * (uint64_t)b; }
+    return b < 0 ? 0 - fixed_mul_part_by_halves(a, (uint32_t)-b) : fixed_mul_part_by_halves(a, (uint32_t)b);
+}
+
+/* floor(a / b), |a| < 2^46, 0 < b < 2^18, by 32-bit divisions: 14 bits of a at a time, so that remainders leave room for them. */
+TUILE_INLINE int64_t fixed_floor_div46_by_words(int64_t a, int32_t b) {
+    const uint32_t divisor = (uint32_t)b;
+    const uint64_t size = a < 0 ? ~(uint64_t)a : (uint64_t)a; /* floor(a / b) = -1 - floor((-1 - a) / b) */
+    const uint32_t high = (uint32_t)(size >> 14), quotient = high / divisor;
+    const uint32_t low = (high - quotient * divisor) << 14 | ((uint32_t)size & 0x3fffu);
+    const uint64_t whole = ((uint64_t)quotient << 14) + low / divisor;
+    return (int64_t)(a < 0 ? ~whole : whole);
+}
+
+TUILE_INLINE int64_t fixed_floor_div46(int64_t a, int32_t b) {
+    return UINTPTR_MAX > UINT32_MAX ? fixed_floor_div64(a, b) : fixed_floor_div46_by_words(a, b);
+}
+
 /* floor(a * b / 2^32), |a| <= 2^31: |result| < 2^31. */
-TUILE_INLINE int32_t fixed_mul_high(intptr_t a, uint32_t b) { return (int32_t)(((int64_t)a * b) >> 32); }
+TUILE_INLINE int32_t fixed_mul_high(intptr_t a, uint32_t b) {
+    if (FIXED_BY_HALVES) { /* b as a signed number, and 2^32 a where that is less than b */
+        const int32_t high = (int32_t)(fixed_mul_wide_by_halves((int32_t)a, (int32_t)b) >> 32);
+        return (int32_t)b < 0 ? (int32_t)((uint32_t)high + (uint32_t)a) : high;
+    }
+    return (int32_t)(((int64_t)a * b) >> 32);
+}
 
 /* floor(a * b / 2^shift) through a 96-bit product, shift <= 62; the result must fit in 63 bits, |a| <= 2^62. */
 TUILE_INLINE int64_t fixed_mul_shift(int64_t a, int32_t b, unsigned shift) {
@@ -87,10 +145,11 @@ static inline uint32_t fixed_sqrt64(uint64_t x) {
  * A 17-bit quotient from one 32-bit division, then one Newton step: with r0 = r (1 + d), |d| < 2^-15, the step leaves d^2,
  * that is 2^-30, besides the truncations of its own products. */
 TUILE_INLINE uint32_t fixed_reciprocal(uint32_t w) {
-    const uint32_t r0 = (0xffffffffu / (w >> 16)) << 14;           /* <= 2^17 * 2^14 - 2^14, below 2^31 but for w = 2^31 */
-    const uint32_t product = (uint32_t)(((uint64_t)w * r0) >> 32); /* 2^30 (1 + d) */
-    const int32_t error = (int32_t)(0x40000000u - product);        /* |error| <= 2^30 * 2^-15 + 1 */
-    return r0 + (uint32_t)(((int32_t)(r0 >> 16) * error) >> 14);   /* |product| <= 2^15 * (2^15 + 1) */
+    const uint32_t r0 = (0xffffffffu / (w >> 16)) << 14; /* <= 2^17 * 2^14 - 2^14, below 2^31 but for w = 2^31 */
+    const uint32_t product = FIXED_BY_HALVES ? (uint32_t)fixed_mul_high((int32_t)r0, w) : (uint32_t)(((uint64_t)w * r0) >> 32);
+    /* 2^30 (1 + d) */
+    const int32_t error = (int32_t)(0x40000000u - product);      /* |error| <= 2^30 * 2^-15 + 1 */
+    return r0 + (uint32_t)(((int32_t)(r0 >> 16) * error) >> 14); /* |product| <= 2^15 * (2^15 + 1) */
 }
 
 #endif

@@ -88,6 +88,41 @@ static void products_are_floored(void **state) {
     }
 }
 
+/* What machines without long products make of halves is the product. */
+static void products_by_halves_are_exact(void **state) {
+    static const int32_t ends[] = {0, 1, -1, 0xffff, -0xffff, 0x10000, -0x10000, 0x7fff8000, INT32_MAX, -INT32_MAX, INT32_MIN};
+    random_source_t random = random_seed(0x4a1f);
+    (void)state;
+    for (int round = 0; round < CHECK_ROUNDS(1000000); round++) {
+        const int32_t a =
+            random_one_in(&random, 4) ? ends[random_bits(&random) % CHECK_COUNT(ends)] : (int32_t)random_any_size(&random, 31);
+        const int32_t b =
+            random_one_in(&random, 4) ? ends[random_bits(&random) % CHECK_COUNT(ends)] : (int32_t)random_any_size(&random, 31);
+        const uint64_t wide = random_bits(&random);
+        const uint32_t part = random_one_in(&random, 4) ? 0xffffu : (uint32_t)random_bits(&random) & 0xffffu;
+        assert_true(fixed_mul_wide_by_halves(a, b) == (int64_t)a * b);
+        assert_true(fixed_mul_part_by_halves(wide, part) == wide * part);
+        assert_true(fixed_mul_wide(a, b) == (int64_t)a * b);
+        assert_true(fixed_mul_part(wide, part) == wide * part);
+        assert_true(fixed_mul_signed_part(wide, -(intptr_t)part) == 0 - wide * part);
+    }
+}
+
+/* By what a floor is. */
+static void divisions_by_words_round_down(void **state) {
+    static const int64_t ends[] = {0, 1, -1, (1 << 14) - 1, -(1 << 14), ((int64_t)1 << 46) - 1, 1 - ((int64_t)1 << 46)};
+    random_source_t random = random_seed(0xd1f);
+    (void)state;
+    for (int round = 0; round < CHECK_ROUNDS(1000000); round++) {
+        const int64_t a = random_one_in(&random, 8) ? ends[random_bits(&random) % CHECK_COUNT(ends)] : random_any_size(&random, 46);
+        const int32_t b = random_one_in(&random, 8)
+                              ? (1 << 18) - 1
+                              : (int32_t)(random_bits(&random) % ((1u << random_between(&random, 1, 18)) - 1)) + 1;
+        const int64_t quotient = fixed_floor_div46_by_words(a, b);
+        assert_true(quotient * b <= a && a < (quotient + 1) * b);
+    }
+}
+
 static void multiply_by_the_least_number(void) {
     if (fixed_mul_shift(-1, INT32_MIN, 0) != INT64_C(1) << 31) { abort(); }
 }
@@ -300,6 +335,8 @@ int main(void) {
         cmocka_unit_test(floor_divisions_round_down),
         cmocka_unit_test(leading_zeros_and_shifts),
         cmocka_unit_test(products_are_floored),
+        cmocka_unit_test(products_by_halves_are_exact),
+        cmocka_unit_test(divisions_by_words_round_down),
         cmocka_unit_test(mul_shift_of_int32_min_overflows_in_between),
         cmocka_unit_test(square_roots_are_floored),
         cmocka_unit_test(reciprocals_are_within_8),

@@ -18,10 +18,18 @@ TUILE_INLINE gradient_t gradient_exact(int32_t c1, int32_t c2, int32_t x1, int32
                         fixed_floor_div64(fixed_shift_left64(ny, unit_bits), area)};
 }
 
+/* The exact ones of sides below 32 pixels: |c| < 2^24 with unit_bits 12, or < 2^8 with 28; area < 2^18. */
+TUILE_INLINE gradient_t gradient_exact_short(int32_t c1, int32_t c2, int32_t x1, int32_t y1, int32_t x2, int32_t y2, int32_t area,
+                                             unsigned unit_bits) {
+    const int64_t nx = (int64_t)c2 * y1 - (int64_t)c1 * y2, ny = (int64_t)c1 * x2 - (int64_t)c2 * x1; /* < 2^(46 - unit_bits) */
+    return (gradient_t){fixed_floor_div46(fixed_shift_left64(nx, unit_bits), area),
+                        fixed_floor_div46(fixed_shift_left64(ny, unit_bits), area)};
+}
+
 TUILE_INLINE gradient_t gradient_small(int32_t c1, int32_t c2, int32_t x1, int32_t y1, int32_t x2, int32_t y2, int32_t reciprocal,
                                        unsigned unit_bits) {
-    return (gradient_t){((int64_t)(c2 * y1 - c1 * y2) * reciprocal) >> (31 - unit_bits),
-                        ((int64_t)(c1 * x2 - c2 * x1) * reciprocal) >> (31 - unit_bits)};
+    return (gradient_t){fixed_mul_wide(c2 * y1 - c1 * y2, reciprocal) >> (31 - unit_bits),
+                        fixed_mul_wide(c1 * x2 - c2 * x1, reciprocal) >> (31 - unit_bits)};
 }
 
 /* What the fraction of a pixel adds, x and y in sixteenths: the whole pixels are added modulo 2^64 afterwards. */

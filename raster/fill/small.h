@@ -68,7 +68,8 @@ TUILE_INLINE bool small_fits(const small_corners_t *c, const small_tile_t *tile)
 /* What is affine over the triangle, at the centre of a pixel: to_x right and to_y below the top corner, sixteenths of a pixel, 1
  * ... 16 and 1 ... 2^9. |gradients| < 2^46: the sum stays below 2^57. */
 TUILE_INLINE uint64_t small_at(gradient_t g, int64_t at_corner, small_int_t to_x, small_int_t to_y) {
-    return (uint64_t)(at_corner + ((g.dx * to_x + g.dy * to_y) >> 4));
+    const uint64_t sum = fixed_mul_part((uint64_t)g.dx, (uint32_t)to_x) + fixed_mul_part((uint64_t)g.dy, (uint32_t)to_y);
+    return (uint64_t)(at_corner + ((int64_t)sum >> 4));
 }
 
 TUILE_INLINE triangle_gradients_t small_gradients(const small_corners_t *c, const vertex_t *v0, const vertex_t *v1,
@@ -84,8 +85,8 @@ TUILE_INLINE triangle_gradients_t small_gradients(const small_corners_t *c, cons
         g.depth = gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12);
         if (gouraud) { g.light = gradient_small(light1, light2, x1, y1, x2, y2, reciprocal, 28); }
     } else {
-        g.depth = gradient_exact(z1, z2, x1, y1, x2, y2, area, 12);
-        if (gouraud) { g.light = gradient_exact(light1, light2, x1, y1, x2, y2, area, 28); }
+        g.depth = gradient_exact_short(z1, z2, x1, y1, x2, y2, area, 12);
+        if (gouraud) { g.light = gradient_exact_short(light1, light2, x1, y1, x2, y2, area, 28); }
     }
     return g;
 }
@@ -152,15 +153,17 @@ TUILE_INLINE void small_span(const small_rows_t *r, const small_tile_t *tile, sm
                              const small_paint_t *paint) {
     uint16_t *depth = r->depth + from;
     const uint16_t *const end = r->depth + to;
-    const uint64_t shade = r->at + r->dx * (uint64_t)from;
+    const uint64_t shade = r->at + fixed_mul_signed_part(r->dx, from);
     if (kind == SMALL_FLAT) {
         small_span_flat(depth, end, tile->colour, (uint32_t)(shade >> 32), (uint32_t)(r->dx >> 32), paint->value);
     } else if (kind == SMALL_GOURAUD) {
         small_span_gouraud(depth, end, tile->colour, shade, r->dx, paint->ramp);
     } else if (paint->map.palette) {
-        small_span_textured(depth, end, tile->colour, shade, r->dx, &paint->map, r->map + paint->map.dx * (uint64_t)from, true);
+        small_span_textured(depth, end, tile->colour, shade, r->dx, &paint->map,
+                            r->map + fixed_mul_signed_part(paint->map.dx, from), true);
     } else {
-        small_span_textured(depth, end, tile->colour, shade, r->dx, &paint->map, r->map + paint->map.dx * (uint64_t)from, false);
+        small_span_textured(depth, end, tile->colour, shade, r->dx, &paint->map,
+                            r->map + fixed_mul_signed_part(paint->map.dx, from), false);
     }
 }
 

@@ -124,17 +124,12 @@ static int pass_begin(tuile_t *t, uint32_t row, uint32_t column) {
 
 /* ---- tiles ---- */
 
-void frame_fill_words(void *bytes, uint32_t word, size_t size_bytes) {
-    typedef struct block {
-        uint32_t word[4];
-    } block_t;
-    const block_t block = {{word, word, word, word}};
-    block_t *at = bytes;
-    for (size_t left = (size_bytes + 63) / 64; left; left--, at += 4) {
-        at[0] = block;
-        at[1] = block;
-        at[2] = block;
-        at[3] = block;
+TUILE_NOINLINE void frame_fill_words(void *bytes, uint32_t word, size_t size_bytes) {
+    const uint64_t both = (uint64_t)word << 32 | word; /* two registers of a 32-bit machine go in one store */
+    uint64_t *at = bytes;
+    for (size_t left = (size_bytes + 63) / 64; left; left--, at += 8) {
+        at[0] = both, at[1] = both, at[2] = both, at[3] = both;
+        at[4] = both, at[5] = both, at[6] = both, at[7] = both;
     }
 }
 

@@ -51,9 +51,19 @@ static TUILE_NOINLINE vertex_t vertex_from_fine(const transform_t *transform, co
     return inside ? vertex : outside(light);
 }
 
-/* 31 bits, in a whole register. */
+/* 31 bits, in a whole register. By halves: the result fits in 32 bits, so all sums are modulo 2^32. */
 TUILE_INLINE intptr_t coarse(const transform_row_t *row, int32_t x, int32_t y, int32_t z) {
-    return (intptr_t)(((int64_t)row->m[0] * x + (int64_t)row->m[1] * y + (int64_t)row->m[2] * z + row->t) >> 16);
+    if (!FIXED_BY_HALVES) {
+        return (intptr_t)(((int64_t)row->m[0] * x + (int64_t)row->m[1] * y + (int64_t)row->m[2] * z + row->t) >> 16);
+    }
+    const int32_t q[3] = {x, y, z};
+    uint32_t high = (uint32_t)(row->t >> 16), low = (uint32_t)row->t & 0xffffu;
+    for (unsigned i = 0; i < 3; i++) {
+        const int32_t part = (row->m[i] & 0xffff) * q[i]; /* 16 bits by 16 signed ones */
+        high += (uint32_t)((row->m[i] >> 16) * q[i]) + (uint32_t)(part >> 16);
+        low += (uint32_t)part & 0xffffu;
+    }
+    return (int32_t)(high + (low >> 16));
 }
 
 /* Light at the next of the normals, if there are any. */
