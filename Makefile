@@ -217,8 +217,10 @@ $(OBJ)/guest_scene: $(OBJ)/tests/bench/qemu/guest_scene.o $(SIM_LIB_OBJ) $(CORE_
 $(OBJ)/bench: $(OBJ)/tests/bench/bench.o $(SIM_LIB_OBJ) $(CORE_OBJ)
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
 
-bench: $(OBJ)/bench $(BUILD)/need/bench $(filter $(BUILD)/%,$(MODEL)) ## instructions per frame by callgrind; MODEL=FILE ... TILE=WxH ... SIZE=WxH
-	@sh tests/bench/bench.sh $(OBJ)/bench $(BUILD)/bench $(SIZE) $(TILE) -- $(MODEL)
+TARGETS ?= x86-64 cortex-m0plus cortex-m3 cortex-m4 cortex-m33 rv32imac
+$(BUILD)/need/bench-targets: ; $(call need,qemu-system-arm qemu-system-misc gcc-arm-none-eabi gcc-riscv64-unknown-elf,instruction counts on microcontrollers)
+bench: $(OBJ)/bench $(OBJ)/guest_scene $(BUILD)/need/bench $(if $(filter-out x86-64,$(TARGETS)),$(BUILD)/need/bench-targets) $(filter $(BUILD)/%,$(MODEL)) ## instructions per frame by callgrind and QEMU; MODEL=FILE ... TILE=WxH ... SIZE=WxH TARGETS=...
+	@TARGETS="$(TARGETS)" sh tests/bench/bench.sh $(OBJ)/bench $(OBJ)/guest_scene $(BUILD)/bench $(SIZE) $(TILE) -- $(MODEL)
 
 # Four scenes, each compiled without and with a display tree: NAME[@EYE@AT@FOV], model units.
 HOUSE := $(dir $(SPIDER))../IFC/AC14-FZK-Haus.ifc

@@ -101,6 +101,8 @@ TUILE_INLINE small_side_t small_side(small_int_t x, small_int_t dx, small_int_t 
     return (small_side_t){x * (1 << 16) + ((t * slope) >> 4) + ((1 << 20) - 1), slope};
 }
 
+/* ---- rows and pixels ---- */
+
 /* The rows of a triangle that are being filled. */
 typedef struct small_rows {
     small_side_t a, b;   /* left and right, in columns */
@@ -184,6 +186,8 @@ TUILE_INLINE void small_rows_fill(small_rows_t *r, const small_tile_t *tile, sma
         r->depth += tile->stride;
     } while (--count);
 }
+
+/* ---- set-up ---- */
 
 /* Which corner is where: `low` is the lowest one, which the long side ends at. */
 typedef struct small_bend {

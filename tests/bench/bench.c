@@ -3,8 +3,8 @@
  * The scene is that of turntable.h. With EYE, AT and FOV (as of tuile render, model units) the camera stands there and the model
  * turns about AT.
  *
- * The first frame is drawn twice more, and not counted: with a trace, for the pixels that its faces cover, and in a block of as
- * many bytes as the figures say that it needs, to see that it does.
+ * All frames are drawn once more, and not counted, for a hash of their pictures. So is the first frame with a trace, for the pixels
+ * that its faces cover, and in a block of as many bytes as the figures say that it needs, to see that it does.
  *
  * Usage: bench MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT SHADE MEMORY_BYTES [METHOD [VARIANT [EYE AT FOV]]]
  * SHADE: flat, gouraud, textured-flat, textured-gouraud (the model's textures, in the same light).
@@ -109,6 +109,27 @@ static void turn(bench_t *b, unsigned number) {
     }
 }
 
+/* FNV-1a of the tiles of all frames. */
+static int print_hash(bench_t *b) {
+    tuile_t *renderer;
+    tuile_tile_t tile;
+    uint64_t hash = 14695981039346656037u;
+    int result = tuile_init(&renderer, &b->config, b->block, b->memory, NULL);
+    for (unsigned i = 0; i < FRAMES && !result; i++) {
+        turn(b, i);
+        result = tuile_begin(renderer, &b->view.scene);
+        while (!result && (result = tuile_next(renderer, &tile)) == 1) {
+            for (uint32_t at = 0; at < tile.size_bytes; at++) {
+                hash = (hash ^ tile.bytes[at]) * 1099511628211u;
+            }
+            result = 0;
+        }
+        (void)tuile_end(renderer, NULL);
+    }
+    (void)printf("hash %016llx\n", (unsigned long long)hash);
+    return result;
+}
+
 static int run(bench_t *b) {
     const tuile_config_t *config = &b->config;
     unsigned faces = 0, setup = 0, passes = 0, vertices = 0, peak = 0, least = 0, windows = 0, pixels = 0, splits = 0;
@@ -143,6 +164,8 @@ static int run(bench_t *b) {
     const size_t colours = (size_t)(config->buffers ? config->buffers : 2) *
                            TUILE_ALIGN64(TUILE_WIRE_BYTES(config->format, config->tile_width, config->tile_height));
     (void)printf("beside %zu\n", peak - colours); /* the buffers of colours */
+    result = print_hash(b);
+    if (result) { return fail(tuile_error_text(result)); }
     turn(b, 0);
     result = print_cover(config, &b->view.scene, b->block, b->memory);
     if (result) { return fail(tuile_error_text(result)); }

@@ -1,64 +1,59 @@
 #!/bin/sh
-# Counts instructions by callgrind and prints a table and build/bench/bench.json. Called by `make bench`.
-# METHOD and VARIANT in the environment are handed on to the program.
-# Usage: bench.sh BENCH_PROGRAM OUTPUT_FOLDER WIDTHxHEIGHT TILE... -- MODEL...
+# Counts instructions, on this machine by callgrind and on others by QEMU (qemu/run.sh), and prints a table and OUT/bench.json. Called by
+# `make bench`. Emulated targets draw by the z-buffer, in the first of the tiles.
+# In the environment: TARGETS, SHADES, MEMORY (bytes); METHOD and VARIANT are handed on to the program.
+# Usage: bench.sh BENCH_PROGRAM TURNTABLE_PROGRAM OUT WIDTHxHEIGHT TILE... -- MODEL...
 set -eu
-. "$(dirname "$0")/count.sh"
-program=$1 out=$2 size=$3
-shift 3
+here=$(dirname "$0")
+. "$here/count.sh"
+program=$1 turntable=$2 out=$3 size=$4
+shift 4
 tiles=
 while [ "$1" != -- ]; do
     tiles="$tiles $1"
     shift
 done
 shift
+first=$(echo "$tiles" | awk '{ print $1 }')
 mkdir -p "$out"
 rows=$out/rows.txt
 : >"$rows"
 width=${size%x*} height=${size#*x}
+memory=${MEMORY:-4194304}
+method=${METHOD:-zbuffer}
+# Which lines of fill/small.h are rows and pixels: see there.
+small=$(awk '/^\/\* ---- rows and pixels/ { first = NR } /^\/\* ---- set-up/ { last = NR } END { print first "-" last }' raster/fill/small.h)
+
+phases() { awk -v frames=8 -v small="$small" -f "$here/phases.awk"; }
+
+row() { # TARGET MODEL TILE SHADE: the phases from standard input
+    read -r figures
+    echo "$(basename "$2" | sed 's/\..*//') $1 $4 $size $3 $method $(figure "$out" faces) $figures" >>"$rows"
+}
+
 for model in "$@"; do
     for tile in $tiles; do
         for shade in ${SHADES:-flat gouraud textured-gouraud}; do
-            memory=${MEMORY:-4194304}
-            count "$out" "$program" "$model" "$width" "$height" "${tile%x*}" "${tile#*x}" "$shade" "$memory" \
-                "${METHOD:-zbuffer}" "${VARIANT:-0}"
-            faces=$(figure "$out" faces)
-            frames=$(figure "$out" frames)
-            # Self cost of each function, summed by phase. The line after "calls=" is what the callee cost: not ours.
-            awk -v frames="$frames" -v faces="$faces" -v model="$(basename "$model" | sed 's/\..*//')" -v tile="$tile" \
-                -v shade="$shade" -v width="$width" -v height="$height" '
-                function name(text) {
-                    if (match(text, /^\([0-9]+\)/)) {
-                        id = substr(text, RSTART, RLENGTH)
-                        rest = substr(text, RLENGTH + 2)
-                        if (rest != "") names[id] = rest
-                        return names[id]
-                    }
-                    return text
-                }
-                function phase(f) {
-                    if (f ~ /^(vertex_|perspective|orthographic)/) return "vertex"
-                    if (f ~ /^(surface_fill_|stage_|texture_|fetch_|store|shade_box|triangle_fill[a-z_]*|triangle_paint_[agf][a-z]*|triangle_skip|bend|fill_rows|polygon_start|polygon_fill|polygon_paint|polygon_paint_start|polygon_skip|polygon_span|span_|chains_|polygon_chain|sorted_crossings|side_start|ring_point|polygon_crossing)/) return "span"
-                    if (f ~ /^(zbuffer_clear|shade_clear|frame_fill_words|tile_clear)/ || f ~ /memset/) return "clear"
-                    if (f ~ /^resolve_tile/) return "resolve"
-                    return "setup"
-                }
-                /^fn=/ { current = name(substr($0, 4)); sub(/\x27[0-9]+$/, "", current); next }
-                /^cfn=/ { name(substr($0, 5)); next }
-                /^calls=/ { getline; next }
-                /^[0-9+*-]+ [0-9]+$/ { cost[phase(current)] += $2; self[current] += $2; total += $2 }
-                END {
-                    printf "%s %d %d %s %s %d %.0f %.0f %.0f %.0f %.0f %.0f\n", model, width, height, tile, shade, faces, total / frames,
-                        cost["vertex"] / frames, cost["setup"] / frames, cost["span"] / frames, cost["clear"] / frames, cost["resolve"] / frames
-                    for (f in self) printf "%12.0f %s\n", self[f] / frames, f | "sort -rn > " functions
-                }' functions="$out/functions.txt" "$out/callgrind.out" >>"$rows"
+            count "$out" "$program" "$model" "$width" "$height" "${tile%x*}" "${tile#*x}" "$shade" "$memory" "$method" "${VARIANT:-0}"
+            awk -f "$here/lines.awk" "$out/callgrind.out" >"$out/lines.txt"
+            awk '{ self[$2] += $1 } END { for (f in self) printf "%12.0f %s\n", self[f] / 8, f }' "$out/lines.txt" | sort -rn >"$out/functions.txt"
+            phases <"$out/lines.txt" | row x86-64 "$model" "$tile" "$shade"
+            [ "$tile" = "$first" ] && [ "$method" = zbuffer ] || continue
+            for target in ${TARGETS:-}; do
+                [ "$target" != x86-64 ] || continue
+                sh "$here/qemu/run.sh" "$out" "$target" "$turntable" "$model" "$width" "$height" "${tile%x*}" "${tile#*x}" "$shade" "$memory" \
+                    >"$out/hash-$target.txt"
+                phases <"$out/$target/lines.txt" | row "$target" "$model" "$tile" "$shade"
+                cmp -s "$out/hash-$target.txt" "$out/hash.txt" || echo "$target draws another picture: $model $shade" >&2
+            done
         done
     done
 done
-awk 'BEGIN { printf "%-10s %-9s %-8s %-8s %7s %12s %10s %10s %10s %10s %10s\n", "model", "window", "tile", "shade", "faces",
-             "instructions", "vertex", "setup", "span", "clear", "resolve" }
-     { printf "%-10s %-9s %-8s %-8s %7d %12d %10d %10d %10d %10d %10d\n", $1, $2 "x" $3, $4, $5, $6, $7, $8, $9, $10, $11, $12 }' "$rows"
-awk -v method="${METHOD:-zbuffer}" 'BEGIN { print "[" }
-     { printf "%s  {\"target\": \"x86-64\", \"model\": \"%s\", \"width\": %d, \"height\": %d, \"tile\": \"%s\", \"method\": \"" method "\", \"shade\": \"%s\", \"faces\": %d, \"instructions\": %d, \"phases\": {\"vertex\": %d, \"setup\": %d, \"span\": %d, \"clear\": %d, \"resolve\": %d}}",
-       (NR > 1 ? ",\n" : ""), $1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12 }
+
+awk 'BEGIN { format = "%-10s %-13s %-17s %-8s %-8s %6s %9s %8s %8s %8s %8s %8s %8s %8s\n"
+             printf format, "model", "target", "shade", "window", "tile", "faces", "total", "vertex", "cull", "setup", "span", "clear", "resolve", "helpers" }
+     { printf format, $1, $2, $3, $4, $5, $7, $8, $9, $10, $11, $12, $13, $14, $15 }' "$rows"
+awk 'BEGIN { print "[" }
+     { printf "%s  {\"model\": \"%s\", \"target\": \"%s\", \"shade\": \"%s\", \"size\": \"%s\", \"tile\": \"%s\", \"method\": \"%s\", \"faces\": %d, \"phases\": {\"vertex\": %d, \"cull\": %d, \"setup\": %d, \"span\": %d, \"clear\": %d, \"resolve\": %d, \"helpers\": %d}, \"total\": %d}",
+       (NR > 1 ? ",\n" : ""), $1, $2, $3, $4, $5, $6, $7, $9, $10, $11, $12, $13, $14, $15, $8 }
      END { print "\n]" }' "$rows" >"$out/bench.json"

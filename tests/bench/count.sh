@@ -6,7 +6,8 @@ count() {
     shift
     count_code=0
     valgrind --tool=callgrind --callgrind-out-file="$count_out/callgrind.out" --collect-atstart=no --toggle-collect=bench_frame \
-        --dump-line=no "$@" >"$count_out/run.txt" 2>"$count_out/valgrind.txt" || count_code=$?
+        --dump-line=yes "$@" >"$count_out/run.txt" 2>"$count_out/valgrind.txt" || count_code=$?
+    grep '^hash ' "$count_out/run.txt" >"$count_out/hash.txt" || true
     [ $count_code != 1 ] || cat "$count_out/run.txt" "$count_out/valgrind.txt" >&2
     return $count_code
 }

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Instructions of the bench's frames on an emulated processor, by function: lines of count and name in OUT/functions-TARGET.txt, and the
-# hash of the pictures on standard output.
+# Instructions of the bench's frames on an emulated processor, by line in OUT/TARGET/lines.txt and by function in
+# OUT/functions-TARGET.txt; a hash of the pictures on standard output.
 # Usage: run.sh OUT TARGET SCENE_PROGRAM MODEL WIDTH HEIGHT TILE_WIDTH TILE_HEIGHT SHADE MEMORY_BYTES
 # TARGET: cortex-m0plus, cortex-m3, cortex-m4, cortex-m33 or rv32imac.
 set -eu
@@ -14,7 +14,7 @@ mkdir -p "$folder"
 case $target in
 rv32imac)
     prefix=riscv64-unknown-elf- start=start_riscv.S flash=0x80000000 ram=0x81000000
-    flags="-march=rv32imac_zicsr -mabi=ilp32 -mcmodel=medany" qemu="qemu-system-riscv32 -M virt -bios none" ;;
+    flags="-march=rv32imac -mabi=ilp32 -mcmodel=medany" qemu="qemu-system-riscv32 -M virt -bios none" ;;
 *)
     prefix=arm-none-eabi- start=start_arm.S flash=0 ram=0x21000000
     flags="-mcpu=$target -mthumb -mfloat-abi=soft" cpu=$target board=mps2-an385
@@ -51,11 +51,15 @@ start_at=$(address program_start) end_at=$(address program_end)
 $qemu -display none -monitor none -serial none -semihosting-config enable=on,target=native \
     -plugin "$folder/count.so,from=$(address guest_from),to=$(address guest_to),base=$start_at,bytes=$((end_at - start_at)),out=$folder/counts.txt" \
     -kernel "$folder/guest.elf" 2>&1 | grep -v '^qemu-system' || true
-awk 'function hex(text, i, value) {
-         value = 0
-         for (i = 1; i <= length(text); i++) value = value * 16 + index("0123456789abcdef", substr(text, i, 1)) - 1
-         return value
-     }
-     NR == FNR { if ($2 ~ /^[tTwW]$/ && $3 !~ /^\$/) { at[++n] = hex($1); name[n] = $3 } next }
-     { a = hex($1); while (k < n && at[k + 1] <= a) k++; cost[name[k]] += $2 }
-     END { for (f in cost) print cost[f], f }' "$folder/symbols.txt" "$folder/counts.txt" | sort -rn >"$out/functions-$target.txt"
+# Lines of count, function, file of the function, file of the line, line; as of lines.awk.
+awk '{ print "0x" $1 }' "$folder/counts.txt" | "${prefix}addr2line" -f -i -a -e "$folder/guest.elf" | awk '
+    function flush(i, at) {
+        if (n == 0) return
+        at = 1
+        while (at < n && (file[at] ~ /\/(fixed|tuile)\.h$/ || file[at] == "??")) at++
+        print name[n], file[n], file[at], line[at]
+    }
+    /^0x/ { flush(); n = 0; next }
+    { name[++n] = $1; getline; sub(/ .*/, ""); split($0, part, ":"); file[n] = part[1]; line[n] = part[2] }
+    END { flush() }' | paste -d" " "$folder/counts.txt" - | cut -d" " -f2- >"$folder/lines.txt"
+awk '{ self[$2] += $1 } END { for (f in self) printf "%12.0f %s\n", self[f] / 8, f }' "$folder/lines.txt" | sort -rn >"$out/functions-$target.txt"
