@@ -95,11 +95,14 @@ typedef struct small_side {
     small_int_t x, slope; /* short_edge_t */
 } small_side_t;
 
-/* One side at the centre of a row `t` sixteenths below its upper end, whose x is counted from the column's centre: fill/edge.h. */
-TUILE_INLINE small_side_t small_side(small_int_t x, small_int_t dx, small_int_t dy, small_int_t t) {
+/* One side at the centre of a row `t` sixteenths below its upper end, which is `start` in columns (small_start): fill/edge.h. */
+TUILE_INLINE small_side_t small_side(small_int_t start, small_int_t dx, small_int_t dy, small_int_t t) {
     const int32_t slope = fixed_floor_div((int32_t)dx * (1 << 20), (int32_t)dy);
-    return (small_side_t){x * (1 << 16) + ((t * slope) >> 4) + ((1 << 20) - 1), slope};
+    return (small_side_t){start + ((t * slope) >> 4), slope};
 }
+
+/* x sixteenths right of the column's centre. */
+TUILE_INLINE small_int_t small_start(small_int_t x) { return x * (1 << 16) + ((1 << 20) - 1); }
 
 /* ---- rows and pixels ---- */
 
@@ -248,17 +251,18 @@ TUILE_INLINE bool small_fill(const small_face_t *face, const vertex_t *v0, const
     if (c.y1 >= c.y2) { bend = (small_bend_t){c.x2, c.y2, c.x1, c.y1, false}; }
     const small_int_t row_mid = (c.y0 + bend.mid_y + 7) >> 4, row_end = (c.y0 + bend.low_y + 7) >> 4,
                       end = row_end < tile->bottom ? row_end : tile->bottom;
+    const small_int_t start = small_start(-to_x);
     small_int_t from = row;
-    r.a = r.b = small_side(-to_x, bend.low_x, bend.low_y, to_y);
+    r.a = r.b = small_side(start, bend.low_x, bend.low_y, to_y);
     if (row < row_mid) {
         from = row_mid < end ? row_mid : end;
-        small_turn(&r, bend.left, small_side(-to_x, bend.mid_x, bend.mid_y, to_y));
+        small_turn(&r, bend.left, small_side(start, bend.mid_x, bend.mid_y, to_y));
         small_rows_fill(&r, tile, from - row, kind, paint);
     }
     if (from < end) {
-        small_turn(
-            &r, bend.left,
-            small_side(bend.mid_x - to_x, bend.low_x - bend.mid_x, bend.low_y - bend.mid_y, 16 * from + 8 - c.y0 - bend.mid_y));
+        small_turn(&r, bend.left,
+                   small_side(start + bend.mid_x * (1 << 16), bend.low_x - bend.mid_x, bend.low_y - bend.mid_y,
+                              16 * from + 8 - c.y0 - bend.mid_y));
         small_rows_fill(&r, tile, end - from, kind, paint);
     }
     return row_end > tile->bottom;
