@@ -51,7 +51,7 @@ static void test_mode_from_edid(void **state) {
     (void)state;
     memcpy(edid + 54, (const uint8_t[18]){0, 0, 0, 0xFC, 0, 'T', 'u', 'i', 'l', 'e'}, 18); /* a name */
     memcpy(edid + 72, timing, sizeof timing);
-    edid[72 + 17] |= 0x80; /* interlaced */
+    edid[72 + 5] = 0xF0, edid[72 + 17] |= 0x80; /* 240 lines, interlaced */
     memcpy(edid + 90, timing, sizeof timing);
     for (unsigned i = 0; i < 127; i++) {
         sum = (uint8_t)(sum + edid[i]);
