@@ -11,6 +11,8 @@
 #include "../bus.h"
 
 #define BUFSIZ_DEFAULT_BYTES 4096u
+/* spidev counts each transfer rounded up to what DMA wants (ARCH_KMALLOC_MINALIGN): 128 bytes on arm64, no more elsewhere. */
+#define TRANSFER_UNIT_BYTES 128u
 
 uint32_t tuile_linux_spi_bufsiz(void) {
     FILE *file = fopen("/sys/module/spidev/parameters/bufsiz", "re");
@@ -33,12 +35,18 @@ int tuile_linux_spi_probe(const char *path, tuile_linux_fault_t *fault) {
     return result;
 }
 
+static uint32_t chunk_of(uint32_t bufsiz) {
+    const uint32_t usable = bufsiz < TRANSFER_UNIT_BYTES ? bufsiz : bufsiz - bufsiz % TRANSFER_UNIT_BYTES;
+
+    return usable - usable % TUILE_CHUNK_LEAST_BYTES;
+}
+
 int tuile_linux_spi_open(tuile_linux_spi_t *spi, const char *path, uint8_t mode, tuile_linux_fault_t *fault) {
     const uint32_t bufsiz = tuile_linux_spi_bufsiz();
     uint32_t flags = 0;
     int error;
 
-    *spi = (tuile_linux_spi_t){.fd = -1, .chunk_bytes = bufsiz - bufsiz % TUILE_CHUNK_LEAST_BYTES};
+    *spi = (tuile_linux_spi_t){.fd = -1, .chunk_bytes = chunk_of(bufsiz)};
     if (strlen(path) >= sizeof spi->path || mode > 3) {
         return tuile_linux_say(fault, TUILE_HAL_ARGUMENT, "%s: %s", path, mode > 3 ? "SPI modes are 0 to 3" : "too long a name");
     }

@@ -72,6 +72,12 @@ static void answer(mock_linux_t *mock, uint8_t command, uint8_t *bytes, size_t s
     }
 }
 
+/* What a transfer takes of bufsiz: spidev (drivers/spi/spidev.c) rounds it up to ARCH_KMALLOC_MINALIGN, at most 128 bytes, on
+ * arm64. Smaller buffers are taken as of a machine that rounds to nothing. */
+static uint32_t rounded(const mock_linux_t *mock, uint32_t size_bytes) {
+    return bufsiz_of(mock) < 128 ? size_bytes : (size_bytes + 127u) / 128u * 128u;
+}
+
 static long message(mock_linux_t *mock, UMockdevIoctlData *arg, size_t count, bool cut, int *error) {
     UMockdevIoctlData *list, *buffer;
     const struct spi_ioc_transfer *transfers = resolve(arg, 0, count * sizeof *transfers, &list);
@@ -80,8 +86,8 @@ static long message(mock_linux_t *mock, UMockdevIoctlData *arg, size_t count, bo
 
     if (mock->hold) { (void)sem_wait(&mock->go); }
     for (size_t i = 0; i < count; i++) {
-        out += transfers[i].tx_buf ? transfers[i].len : 0;
-        in += transfers[i].rx_buf ? transfers[i].len : 0;
+        out += transfers[i].tx_buf ? rounded(mock, transfers[i].len) : 0;
+        in += transfers[i].rx_buf ? rounded(mock, transfers[i].len) : 0;
         total += transfers[i].len;
     }
     if (out > bufsiz_of(mock) || in > bufsiz_of(mock)) {
