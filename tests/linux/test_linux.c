@@ -75,7 +75,7 @@ static void test_displays_tells_what_is_attached(void **state) {
     guest_assert_code("displays", 0);
     guest_assert_text("displays", ".err", "");
     guest_assert_text("displays", ".out",
-                      "SPI, transfers of up to 4096 bytes (bufsiz)\n"
+                      "SPI, transfers of up to 1000 bytes (bufsiz)\n"
                       "  /dev/spidev0.0: ready\n"
                       "GPIO, through libgpiod 1.6.3\n"
                       "  gpiochip0: 9030000.pl061, 8 lines\n"
@@ -91,7 +91,7 @@ static void test_displays_tells_what_users_may_not_have(void **state) {
     (void)state;
     guest_assert_code("displays-denied", 0);
     guest_assert_text("displays-denied", ".out",
-                      "SPI, transfers of up to 4096 bytes (bufsiz)\n"
+                      "SPI, transfers of up to 1000 bytes (bufsiz)\n"
                       "  /dev/spidev0.0: Permission denied; " RULES "GPIO, through libgpiod 1.6.3\n"
                       "  gpiochip0: Permission denied; " RULES "USB\n"
                       "  001-002: 1d50:614d GUD: no permission; " RULES);
