@@ -50,7 +50,7 @@ static int start(tuile_display_t *display) {
 }
 
 int tuile_display_init(tuile_display_t *display, const tuile_display_config_t *config) {
-    const tuile_device_t *device = config->device ? config->device : &tuile_panel_device;
+    const TUILE_FLASH tuile_device_t *device = config->device ? config->device : &tuile_panel_device;
     tuile_view_t view;
     int result;
 

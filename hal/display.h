@@ -30,11 +30,11 @@
 
 /* Zero = default, throughout. Only read by tuile_display_init. */
 typedef struct tuile_display_config {
-    const tuile_bus_t *bus;     /* a panel on a bus: both outlive the display */
-    const tuile_panel_t *panel; /* */
+    const tuile_bus_t *bus;                 /* a panel on a bus: both outlive the display */
+    const TUILE_FLASH tuile_panel_t *panel; /* */
 
-    const tuile_device_t *device; /* or a device of its own, with its context (tuile_gud_device ...): both outlive the display */
-    void *device_context;
+    const TUILE_FLASH tuile_device_t *device; /* or a device of its own (tuile_gud_device ...), */
+    void *device_context;                     /* with its context: both outlive the display */
 
     uint8_t rotation;            /* quarter turns clockwise, 0 ... 3 */
     uint8_t wire;                /* tuile_wire_t; one of the panel's formats. At a quarter turn either name of it will do */
@@ -54,7 +54,7 @@ typedef struct tuile_display {
     bool refresh;             /* the glass may show anything: send every pixel. Set by init and resume, cleared by present */
     int error;                /* the error that sticks, or 0 */
 
-    const tuile_device_t *device; /* NULL: not initialised, or closed */
+    const TUILE_FLASH tuile_device_t *device; /* NULL: not initialised, or closed */
     void *context;
     tuile_panel_state_t panel; /* the context of a panel on a bus */
     uint32_t left_bytes;       /* of the window, still to be written */

@@ -4,7 +4,7 @@
 
 #define COMMAND_MAX_BYTES 64u
 
-tuile_panel_view_t tuile_panel_view(const tuile_panel_t *panel, unsigned rotation) {
+tuile_panel_view_t tuile_panel_view(const TUILE_FLASH tuile_panel_t *panel, unsigned rotation) {
     unsigned mode = panel->mode[rotation & 3u];
     unsigned x = panel->offset_x, y = panel->offset_y;
     uint8_t align_x = panel->align_x ? panel->align_x : 1, align_y = panel->align_y ? panel->align_y : 1;
@@ -35,8 +35,22 @@ static int command_byte(const tuile_panel_state_t *state, uint8_t code, uint8_t 
 
 static int command_alone(const tuile_panel_state_t *state, uint8_t code) { return command(state, &code, 1); }
 
-static int sequence(const tuile_panel_state_t *state, const tuile_sequence_t *steps) {
-    const uint8_t *at = steps->bytes;
+/* A command as it stands in a table. */
+static int command_of(const tuile_panel_state_t *state, const TUILE_FLASH uint8_t *bytes, size_t size_bytes) {
+#if TUILE_FLASH_APART
+    uint8_t copy[COMMAND_MAX_BYTES];
+
+    for (size_t i = 0; i < size_bytes; i++) {
+        copy[i] = bytes[i];
+    }
+    return command(state, copy, size_bytes);
+#else
+    return command(state, bytes, size_bytes);
+#endif
+}
+
+static int sequence(const tuile_panel_state_t *state, const TUILE_FLASH tuile_sequence_t *steps) {
+    const TUILE_FLASH uint8_t *at = steps->bytes;
     size_t left = steps->size_bytes;
 
     while (left > 0) {
@@ -46,7 +60,7 @@ static int sequence(const tuile_panel_state_t *state, const tuile_sequence_t *st
         if (count + 1 > left || count > COMMAND_MAX_BYTES) {
             return TUILE_HAL_PROTOCOL; /* our table is damaged: nothing can be sent after it */
         }
-        result = *at ? command(state, at + 1, count) : delay(state, (uint32_t)at[1] << 8 | at[2]);
+        result = *at ? command_of(state, at + 1, count) : delay(state, (uint32_t)at[1] << 8 | at[2]);
         if (result) { return result; }
         at += count + 1;
         left -= count + 1;
@@ -64,10 +78,13 @@ static int set_pin(const tuile_panel_state_t *state, tuile_pin_t pin, uint8_t le
 
 /* ---- configuration ---------------------------------------------------------------------------------------------- */
 
-static bool exchanges(const tuile_panel_t *panel, unsigned rotation) { return (panel->mode[rotation] & TUILE_EXCHANGE) != 0; }
+static bool exchanges(const TUILE_FLASH tuile_panel_t *panel, unsigned rotation) {
+    return (panel->mode[rotation] & TUILE_EXCHANGE) != 0;
+}
 
 /* The name for quarter turns is for quarter turns only. */
-static const tuile_panel_format_t *find_format(const tuile_panel_t *panel, unsigned rotation, uint8_t wire) {
+static const TUILE_FLASH tuile_panel_format_t *find_format(const TUILE_FLASH tuile_panel_t *panel, unsigned rotation,
+                                                           uint8_t wire) {
     for (unsigned i = 0; i < panel->format_count; i++) {
         if (wire == TUILE_WIRE_DEFAULT || panel->formats[i].wire == wire ||
             (panel->formats[i].turned == wire && exchanges(panel, rotation))) {
@@ -80,8 +97,8 @@ static const tuile_panel_format_t *find_format(const tuile_panel_t *panel, unsig
 static int describe(void *context, const tuile_display_config_t *config, tuile_view_t *view) {
     tuile_panel_state_t *state = context;
     const tuile_bus_t *bus = config->bus;
-    const tuile_panel_t *panel = config->panel;
-    const tuile_panel_format_t *format;
+    const TUILE_FLASH tuile_panel_t *panel = config->panel;
+    const TUILE_FLASH tuile_panel_format_t *format;
 
     if (!bus || !panel || !bus->command || !bus->data || !bus->delay_ms ||
         (bus->max_chunk_bytes && bus->max_chunk_bytes < TUILE_CHUNK_LEAST_BYTES) || panel->format_count > TUILE_PANEL_FORMATS_MAX) {
@@ -123,7 +140,7 @@ static int describe(void *context, const tuile_display_config_t *config, tuile_v
 /* ---- start ------------------------------------------------------------------------------------------------------ */
 
 static int reset(const tuile_panel_state_t *state) {
-    const tuile_panel_t *panel = state->panel;
+    const TUILE_FLASH tuile_panel_t *panel = state->panel;
     int result = TUILE_HAL_OK;
 
     if (has_pin(state, TUILE_PIN_RESET)) {
@@ -144,7 +161,7 @@ static int reset(const tuile_panel_state_t *state) {
 
 /* Nothing but zeros or ones is what an open line reads as: then nobody answered, and that is said apart from a wrong answer. */
 static int identify(const tuile_panel_state_t *state) {
-    const tuile_panel_t *panel = state->panel;
+    const TUILE_FLASH tuile_panel_t *panel = state->panel;
     uint8_t answer[sizeof panel->id] = {0};
     uint8_t both = 0xFF, any = 0;
     bool same = true;
@@ -161,7 +178,7 @@ static int identify(const tuile_panel_state_t *state) {
 }
 
 static int orient(const tuile_panel_state_t *state) {
-    const tuile_panel_t *panel = state->panel;
+    const TUILE_FLASH tuile_panel_t *panel = state->panel;
     const uint8_t invert = panel->invert_command[panel->inverted ? 1 : 0];
     int result = TUILE_HAL_OK;
 
@@ -208,7 +225,7 @@ static int set_range(const tuile_panel_state_t *state, uint8_t code, uint32_t fi
 
 static int window(void *context, uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
     tuile_panel_state_t *state = context;
-    const tuile_panel_t *panel = state->panel;
+    const TUILE_FLASH tuile_panel_t *panel = state->panel;
     const bool exchanged = exchanges(panel, state->rotation);
     int result = TUILE_HAL_OK;
 
@@ -275,7 +292,7 @@ static int write(void *context, const uint8_t *bytes, size_t size_bytes) {
 
         if (!first && (result = wait(state))) { return result; }
         if (pages && state->page_left_bytes == 0 && (result = next_page(state))) { return result; }
-        if (pages && now > state->page_left_bytes) { now = state->page_left_bytes; }
+        if (pages && now > state->page_left_bytes) { now = (size_t)state->page_left_bytes; }
         if ((result = bus->data(bus->context, bytes, now))) { return result; }
         if (pages) { state->page_left_bytes -= (uint32_t)now; }
         bytes += now;
@@ -288,7 +305,7 @@ static int write(void *context, const uint8_t *bytes, size_t size_bytes) {
 
 static int brightness(void *context, uint8_t level) {
     const tuile_panel_state_t *state = context;
-    const tuile_panel_t *panel = state->panel;
+    const TUILE_FLASH tuile_panel_t *panel = state->panel;
     const unsigned most = panel->brightness_most ? panel->brightness_most : 255u;
 
     if (has_pin(state, TUILE_PIN_BACKLIGHT)) { return set_pin(state, TUILE_PIN_BACKLIGHT, level); }
@@ -310,7 +327,7 @@ static int sleep(void *context) {
     return dark ? dark : asleep;
 }
 
-const tuile_device_t tuile_panel_device = {
+const TUILE_FLASH tuile_device_t tuile_panel_device = {
     .describe = describe,
     .start = start,
     .window = window,

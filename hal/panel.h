@@ -1,4 +1,5 @@
-/* A panel as constant data: what its data sheet says, in a form that one driver (panel.c) can follow.
+/* A panel as constant data: what its data sheet says, in a form that one driver (panel.c) can follow. It stays in flash
+ * (base/flash.h).
  *
  * GEOMETRY, the one formula for the four rotations. A controller has RAM for ram_width x ram_height pixels, the glass shows
  * view_width x view_height of them, and the first shown pixel is at (offset_x, offset_y) as the RAM is numbered without
@@ -22,6 +23,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "../base/flash.h"
 #include "bus.h"
 #include "device.h"
 #include "wire.h"
@@ -37,7 +39,7 @@ typedef struct tuile_panel_format {
 /* A sequence of commands. Each record is a count n and then n bytes, of which the first is the command and the others are its
  * parameters. n = 0 is a pause: two more bytes, the milliseconds, high byte first. A command has at most 64 bytes. */
 typedef struct tuile_sequence {
-    const uint8_t *bytes;
+    const TUILE_FLASH uint8_t *bytes;
     uint16_t size_bytes; /* 0: nothing to send */
 } tuile_sequence_t;
 
@@ -60,7 +62,7 @@ typedef enum tuile_addressing {
 } tuile_addressing_t;
 
 typedef struct tuile_panel {
-    const char *name;                 /* as `--panel` takes it: "st7789-240x240" */
+    char name[24];                    /* as `--panel` takes it: "st7789-240x240"; part of the struct, so that it is in flash too */
     uint16_t ram_width, ram_height;   /* pixels the controller has memory for, or of these what it mirrors within (SSD13xx) */
     uint16_t view_width, view_height; /* pixels the glass shows, at rotation 0 */
     uint16_t offset_x, offset_y;      /* of the first shown pixel in the RAM, unmirrored */
@@ -116,11 +118,11 @@ typedef struct tuile_panel_view {
 } tuile_panel_view_t;
 
 /* rotation: 0 ... 3 (only the two low bits count). */
-tuile_panel_view_t tuile_panel_view(const tuile_panel_t *panel, unsigned rotation);
+tuile_panel_view_t tuile_panel_view(const TUILE_FLASH tuile_panel_t *panel, unsigned rotation);
 
 /* The driver's state of one panel on one bus. All of it is the driver's own; it is part of tuile_display_t. */
 typedef struct tuile_panel_state {
-    const tuile_panel_t *panel;
+    const TUILE_FLASH tuile_panel_t *panel;
     const tuile_bus_t *bus;
     tuile_panel_view_t view;
     uint32_t command_clock_hz, pixel_clock_hz, tearing_timeout_ms;
@@ -135,6 +137,6 @@ typedef struct tuile_panel_state {
 } tuile_panel_state_t;
 
 /* The driver, for hal/display.c; its context is a tuile_panel_state_t. */
-extern const tuile_device_t tuile_panel_device;
+extern const TUILE_FLASH tuile_device_t tuile_panel_device;
 
 #endif

@@ -5,7 +5,7 @@
 
 /* A line is a command. */
 /* clang-format off */
-static const uint8_t init[] = {
+static const TUILE_FLASH uint8_t init[] = {
     1, 0xFE,                       /* inner registers: enabled by these two, one right after the other, until a reset */
     1, 0xEF,
     2, 0xEB, 0x14,                 /* undocumented, to 90h */
@@ -52,15 +52,15 @@ static const uint8_t init[] = {
 };
 /* clang-format on */
 
-static const uint8_t on[] = {1, 0x29};                                                    /* display on */
-static const uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)}; /* display off, sleep in */
-static const uint8_t tearing[] = {2, 0x35, 0x00};                                         /* vertical blank only */
+static const TUILE_FLASH uint8_t on[] = {1, 0x29};                                                    /* display on */
+static const TUILE_FLASH uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)}; /* display off, sleep in */
+static const TUILE_FLASH uint8_t tearing[] = {2, 0x35, 0x00};                                         /* vertical blank only */
 
 /* The first column is at the right. */
 #define MODES \
     { TUILE_MIRROR_X, TUILE_EXCHANGE, TUILE_MIRROR_Y, TUILE_EXCHANGE | TUILE_MIRROR_X | TUILE_MIRROR_Y }
 
-const tuile_panel_t tuile_gc9a01 = {
+const TUILE_FLASH tuile_panel_t tuile_gc9a01 = {
     .name = "gc9a01",
     .ram_width = 240,
     .ram_height = 240,

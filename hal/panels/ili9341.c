@@ -6,7 +6,7 @@
 
 /* A line is a command. */
 /* clang-format off */
-static const uint8_t init[] = {
+static const TUILE_FLASH uint8_t init[] = {
     4, 0xEF, 0x03, 0x80, 0x02,     /* undocumented */
     4, 0xCF, 0x00, 0xC1, 0x30,     /* power control B: ESD path on (8.4.2) */
     5, 0xED, 0x64, 0x03, 0x12, 0x81, /* power on sequence: soft start, order, DDVDH enhanced (8.4.5) */
@@ -30,15 +30,15 @@ static const uint8_t init[] = {
 };
 /* clang-format on */
 
-static const uint8_t on[] = {1, 0x29}; /* (8.2.19) */
+static const TUILE_FLASH uint8_t on[] = {1, 0x29}; /* (8.2.19) */
 /* Display off (8.2.18), sleep in and the time until it is reached (8.2.11). */
-static const uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)};
-static const uint8_t tearing[] = {2, 0x35, 0x00}; /* vertical blank only (8.2.28) */
+static const TUILE_FLASH uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)};
+static const TUILE_FLASH uint8_t tearing[] = {2, 0x35, 0x00}; /* vertical blank only (8.2.28) */
 
 #define MODES \
     { 0, TUILE_EXCHANGE | TUILE_MIRROR_X, TUILE_MIRROR_X | TUILE_MIRROR_Y, TUILE_EXCHANGE | TUILE_MIRROR_Y }
 
-const tuile_panel_t tuile_ili9341 = {
+const TUILE_FLASH tuile_panel_t tuile_ili9341 = {
     .name = "ili9341",
     .ram_width = 240,
     .ram_height = 320,

@@ -4,6 +4,6 @@
 
 #include "../panel.h"
 
-extern const tuile_panel_t tuile_ili9341;
+extern const TUILE_FLASH tuile_panel_t tuile_ili9341;
 
 #endif

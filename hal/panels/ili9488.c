@@ -5,7 +5,7 @@
 
 /* A line is a command. */
 /* clang-format off */
-static const uint8_t init[] = {
+static const TUILE_FLASH uint8_t init[] = {
     16, 0xE0, 0x00, 0x03, 0x09, 0x08, 0x16, 0x0A, 0x3F, 0x78, 0x4C, 0x09, 0x0A, 0x08, 0x16, 0x1A, 0x0F, /* positive gamma */
     16, 0xE1, 0x00, 0x16, 0x19, 0x03, 0x0F, 0x05, 0x32, 0x45, 0x46, 0x04, 0x0E, 0x0D, 0x35, 0x37, 0x0F, /* negative gamma */
     3, 0xC0, 0x17, 0x15,           /* power control 1: VREG1OUT 5.0 V, VREG2OUT -4.75 V */
@@ -21,15 +21,15 @@ static const uint8_t init[] = {
 };
 /* clang-format on */
 
-static const uint8_t on[] = {1, 0x29};                                                    /* display on */
-static const uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)}; /* display off, sleep in */
-static const uint8_t tearing[] = {2, 0x35, 0x00};                                         /* vertical blank only */
+static const TUILE_FLASH uint8_t on[] = {1, 0x29};                                                    /* display on */
+static const TUILE_FLASH uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)}; /* display off, sleep in */
+static const TUILE_FLASH uint8_t tearing[] = {2, 0x35, 0x00};                                         /* vertical blank only */
 
 /* The first column is at the right. */
 #define MODES \
     { TUILE_MIRROR_X, TUILE_EXCHANGE, TUILE_MIRROR_Y, TUILE_EXCHANGE | TUILE_MIRROR_X | TUILE_MIRROR_Y }
 
-const tuile_panel_t tuile_ili9488 = {
+const TUILE_FLASH tuile_panel_t tuile_ili9488 = {
     .name = "ili9488",
     .ram_width = 320,
     .ram_height = 480,

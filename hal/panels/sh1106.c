@@ -4,7 +4,7 @@
 
 /* A line is a command. */
 /* clang-format off */
-static const uint8_t init[] = {
+static const TUILE_FLASH uint8_t init[] = {
     1, 0xAE,       /* off: without a reset line the memory might be seen */
     2, 0xD5, 0x80, /* clock: not divided */
     2, 0xA8, 0x3F, /* 64 commons */
@@ -21,15 +21,15 @@ static const uint8_t init[] = {
 /* clang-format on */
 
 /* Upright on the usual modules is column 0 at segment 131 and the scan towards COM0. */
-static const uint8_t turn_0[] = {1, 0xA1, 1, 0xC8};
-static const uint8_t turn_1[] = {1, 0xA0, 1, 0xC8};
-static const uint8_t turn_2[] = {1, 0xA0, 1, 0xC0};
-static const uint8_t turn_3[] = {1, 0xA1, 1, 0xC0};
+static const TUILE_FLASH uint8_t turn_0[] = {1, 0xA1, 1, 0xC8};
+static const TUILE_FLASH uint8_t turn_1[] = {1, 0xA0, 1, 0xC8};
+static const TUILE_FLASH uint8_t turn_2[] = {1, 0xA0, 1, 0xC0};
+static const TUILE_FLASH uint8_t turn_3[] = {1, 0xA1, 1, 0xC0};
 
-static const uint8_t on[] = {1, 0xAF};
-static const uint8_t sleep_sequence[] = {1, 0xAE}; /* the pump stops with it */
+static const TUILE_FLASH uint8_t on[] = {1, 0xAF};
+static const TUILE_FLASH uint8_t sleep_sequence[] = {1, 0xAE}; /* the pump stops with it */
 
-const tuile_panel_t tuile_sh1106 = {
+const TUILE_FLASH tuile_panel_t tuile_sh1106 = {
     .name = "sh1106",
     .ram_width = 132,
     .ram_height = 64,

@@ -6,7 +6,7 @@
 
 /* A line is a command. */
 /* clang-format off */
-static const uint8_t init[] = {
+static const TUILE_FLASH uint8_t init[] = {
     1, 0xAE,                                                 /* off: without a reset line the memory might be seen */
     2, 0xB3, 0x91,                                           /* clock: divided by 2 */
     2, 0xA8, 0x3F,                                           /* 64 commons */
@@ -26,15 +26,15 @@ static const uint8_t init[] = {
 /* A0h: 40h even commons from one side and odd ones from the other, 10h the scan runs from COM79 towards COM0, 01h columns from the
  * other end. Within a byte the upper half comes first with either 02h or 01h, as column remap leaves the order within a byte alone.
  * The reversed scan begins 16 commons beyond the glass, which a display offset (A2h) of 64 of the 80 makes good. */
-static const uint8_t turn_0[] = {2, 0xA0, 0x52, 2, 0xA2, 0x40};
-static const uint8_t turn_1[] = {2, 0xA0, 0x51, 2, 0xA2, 0x40};
-static const uint8_t turn_2[] = {2, 0xA0, 0x41, 2, 0xA2, 0x00};
-static const uint8_t turn_3[] = {2, 0xA0, 0x42, 2, 0xA2, 0x00};
+static const TUILE_FLASH uint8_t turn_0[] = {2, 0xA0, 0x52, 2, 0xA2, 0x40};
+static const TUILE_FLASH uint8_t turn_1[] = {2, 0xA0, 0x51, 2, 0xA2, 0x40};
+static const TUILE_FLASH uint8_t turn_2[] = {2, 0xA0, 0x41, 2, 0xA2, 0x00};
+static const TUILE_FLASH uint8_t turn_3[] = {2, 0xA0, 0x42, 2, 0xA2, 0x00};
 
-static const uint8_t on[] = {1, 0xAF};
-static const uint8_t sleep_sequence[] = {1, 0xAE};
+static const TUILE_FLASH uint8_t on[] = {1, 0xAF};
+static const TUILE_FLASH uint8_t sleep_sequence[] = {1, 0xAE};
 
-const tuile_panel_t tuile_ssd0323 = {
+const TUILE_FLASH tuile_panel_t tuile_ssd0323 = {
     .name = "ssd0323",
     .ram_width = 128,
     .ram_height = 64, /* of 80: the display offset goes with the scan direction, see above */

@@ -23,8 +23,8 @@
     1, 0xA4              /* what the memory holds, not all on (10.1.9) */
 /* clang-format on */
 
-static const uint8_t init_64[] = {INIT(64, 0x12)};
-static const uint8_t init_32[] = {INIT(32, 0x02)};
+static const TUILE_FLASH uint8_t init_64[] = {INIT(64, 0x12)};
+static const TUILE_FLASH uint8_t init_32[] = {INIT(32, 0x02)};
 
 /* Upright on the usual modules is column 0 at segment 127 and the scan towards COM0. */
 #define LEFT_TO_RIGHT 1, 0xA1 /* (10.1.8) */
@@ -32,13 +32,13 @@ static const uint8_t init_32[] = {INIT(32, 0x02)};
 #define DOWN 1, 0xC8 /* (10.1.14) */
 #define UP 1, 0xC0
 
-static const uint8_t turn_0[] = {LEFT_TO_RIGHT, DOWN};
-static const uint8_t turn_1[] = {RIGHT_TO_LEFT, DOWN};
-static const uint8_t turn_2[] = {RIGHT_TO_LEFT, UP};
-static const uint8_t turn_3[] = {LEFT_TO_RIGHT, UP};
+static const TUILE_FLASH uint8_t turn_0[] = {LEFT_TO_RIGHT, DOWN};
+static const TUILE_FLASH uint8_t turn_1[] = {RIGHT_TO_LEFT, DOWN};
+static const TUILE_FLASH uint8_t turn_2[] = {RIGHT_TO_LEFT, UP};
+static const TUILE_FLASH uint8_t turn_3[] = {LEFT_TO_RIGHT, UP};
 
-static const uint8_t on[] = {1, 0xAF};                            /* (10.1.12) */
-static const uint8_t sleep_sequence[] = {1, 0xAE, 2, 0x8D, 0x10}; /* and the charge pump off */
+static const TUILE_FLASH uint8_t on[] = {1, 0xAF};                            /* (10.1.12) */
+static const TUILE_FLASH uint8_t sleep_sequence[] = {1, 0xAE, 2, 0x8D, 0x10}; /* and the charge pump off */
 
 /* The scan is reversed within the multiplex ratio, so the rows that mirroring goes by are those of the glass. */
 /* clang-format off */
@@ -71,5 +71,5 @@ static const uint8_t sleep_sequence[] = {1, 0xAE, 2, 0x8D, 0x10}; /* and the cha
     .rated_pixel_clock_hz = 10000000 /* a cycle of 100 ns (table 13-4) */
 /* clang-format on */
 
-const tuile_panel_t tuile_ssd1306_128x64 = {.name = "ssd1306-128x64", COMMON(64, init_64)};
-const tuile_panel_t tuile_ssd1306_128x32 = {.name = "ssd1306-128x32", COMMON(32, init_32)};
+const TUILE_FLASH tuile_panel_t tuile_ssd1306_128x64 = {.name = "ssd1306-128x64", COMMON(64, init_64)};
+const TUILE_FLASH tuile_panel_t tuile_ssd1306_128x32 = {.name = "ssd1306-128x32", COMMON(32, init_32)};

@@ -4,7 +4,7 @@
 
 #include "../panel.h"
 
-extern const tuile_panel_t tuile_ssd1306_128x64;
-extern const tuile_panel_t tuile_ssd1306_128x32;
+extern const TUILE_FLASH tuile_panel_t tuile_ssd1306_128x64;
+extern const TUILE_FLASH tuile_panel_t tuile_ssd1306_128x32;
 
 #endif

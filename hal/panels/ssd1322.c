@@ -5,7 +5,7 @@
 
 /* A line is a command. */
 /* clang-format off */
-static const uint8_t init[] = {
+static const TUILE_FLASH uint8_t init[] = {
     2, 0xFD, 0x12,       /* unlock (10.1.26) */
     1, 0xAE,             /* off (10.1.12): without a reset line the memory might be seen */
     2, 0xB3, 0x91,       /* clock: 80 frames a second (10.1.14) */
@@ -28,15 +28,15 @@ static const uint8_t init[] = {
 
 /* (10.1.6) 04h: the upper half of the first byte comes first. 02h: columns from the other end. 10h: the scan runs towards COM0. The
  * second parameter drives each common from both sides. */
-static const uint8_t turn_0[] = {3, 0xA0, 0x06, 0x11};
-static const uint8_t turn_1[] = {3, 0xA0, 0x04, 0x11};
-static const uint8_t turn_2[] = {3, 0xA0, 0x14, 0x11};
-static const uint8_t turn_3[] = {3, 0xA0, 0x16, 0x11};
+static const TUILE_FLASH uint8_t turn_0[] = {3, 0xA0, 0x06, 0x11};
+static const TUILE_FLASH uint8_t turn_1[] = {3, 0xA0, 0x04, 0x11};
+static const TUILE_FLASH uint8_t turn_2[] = {3, 0xA0, 0x14, 0x11};
+static const TUILE_FLASH uint8_t turn_3[] = {3, 0xA0, 0x16, 0x11};
 
-static const uint8_t on[] = {1, 0xAF}; /* (10.1.12) */
-static const uint8_t sleep_sequence[] = {1, 0xAE};
+static const TUILE_FLASH uint8_t on[] = {1, 0xAF}; /* (10.1.12) */
+static const TUILE_FLASH uint8_t sleep_sequence[] = {1, 0xAE};
 
-const tuile_panel_t tuile_ssd1322 = {
+const TUILE_FLASH tuile_panel_t tuile_ssd1322 = {
     .name = "ssd1322",
     .ram_width = 480,
     .ram_height = 64, /* of 128: the scan is reversed within the multiplex ratio */

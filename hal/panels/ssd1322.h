@@ -4,6 +4,6 @@
 
 #include "../panel.h"
 
-extern const tuile_panel_t tuile_ssd1322;
+extern const TUILE_FLASH tuile_panel_t tuile_ssd1322;
 
 #endif

@@ -26,11 +26,11 @@
     2, 0xB6, 0x01              /* second pre-charge 1 clock */
 /* clang-format on */
 
-static const uint8_t init_128[] = {INIT(128)};
-static const uint8_t init_96[] = {INIT(96)};
+static const TUILE_FLASH uint8_t init_128[] = {INIT(128)};
+static const TUILE_FLASH uint8_t init_96[] = {INIT(96)};
 
-static const uint8_t on[] = {1, 0xAF}; /* (10.1.10) */
-static const uint8_t sleep_sequence[] = {1, 0xAE};
+static const TUILE_FLASH uint8_t on[] = {1, 0xAF}; /* (10.1.10) */
+static const TUILE_FLASH uint8_t sleep_sequence[] = {1, 0xAE};
 
 /* A0h (10.1.5): 65k colours, even commons from one side and odd ones from the other, red in the upper bits. */
 #define REMAP_COLOURS 0x60
@@ -71,5 +71,5 @@ static const uint8_t sleep_sequence[] = {1, 0xAE};
     .rated_pixel_clock_hz = 20000000 /* a cycle of 50 ns (table 13-4) */
 /* clang-format on */
 
-const tuile_panel_t tuile_ssd1351 = {.name = "ssd1351", COMMON(128, init_128)};
-const tuile_panel_t tuile_ssd1351_128x96 = {.name = "ssd1351-128x96", COMMON(96, init_96)};
+const TUILE_FLASH tuile_panel_t tuile_ssd1351 = {.name = "ssd1351", COMMON(128, init_128)};
+const TUILE_FLASH tuile_panel_t tuile_ssd1351_128x96 = {.name = "ssd1351-128x96", COMMON(96, init_96)};

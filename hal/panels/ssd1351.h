@@ -4,7 +4,7 @@
 
 #include "../panel.h"
 
-extern const tuile_panel_t tuile_ssd1351;
-extern const tuile_panel_t tuile_ssd1351_128x96;
+extern const TUILE_FLASH tuile_panel_t tuile_ssd1351;
+extern const TUILE_FLASH tuile_panel_t tuile_ssd1351_128x96;
 
 #endif

@@ -5,7 +5,7 @@
 
 /* A line is a command. */
 /* clang-format off */
-static const uint8_t init[] = {
+static const TUILE_FLASH uint8_t init[] = {
     4, 0xB1, 0x01, 0x2C, 0x2D,     /* FRMCTR1: normal mode, about 80 Hz */
     4, 0xB2, 0x01, 0x2C, 0x2D,     /* FRMCTR2: idle mode */
     7, 0xB3, 0x01, 0x2C, 0x2D, 0x01, 0x2C, 0x2D, /* FRMCTR3: partial mode, dot and line inversion */
@@ -23,9 +23,9 @@ static const uint8_t init[] = {
 };
 /* clang-format on */
 
-static const uint8_t on[] = {1, 0x29};                                                    /* DISPON */
-static const uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)}; /* DISPOFF, SLPIN */
-static const uint8_t tearing[] = {2, 0x35, 0x00};                                         /* TEON, vertical blank only */
+static const TUILE_FLASH uint8_t on[] = {1, 0x29};                                                    /* DISPON */
+static const TUILE_FLASH uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)}; /* DISPOFF, SLPIN */
+static const TUILE_FLASH uint8_t tearing[] = {2, 0x35, 0x00}; /* TEON, vertical blank only */
 
 /* The glass lies with the first column and row at its lower right. */
 #define MODES \
@@ -53,12 +53,12 @@ static const uint8_t tearing[] = {2, 0x35, 0x00};                               
     .rated_pixel_clock_hz = 15151515 /* write cycle 66 ns; modules run at up to 59 MHz */
 /* clang-format on */
 
-const tuile_panel_t tuile_st7735_128x160 = {
+const TUILE_FLASH tuile_panel_t tuile_st7735_128x160 = {
     .name = "st7735-128x160", .rotation_base = TUILE_MADCTL_BGR, ST7735(128, 160, 128, 160, 0, 0)};
-const tuile_panel_t tuile_st7735_128x160_green = {
+const TUILE_FLASH tuile_panel_t tuile_st7735_128x160_green = {
     .name = "st7735-128x160-green", .rotation_base = TUILE_MADCTL_BGR, ST7735(132, 162, 128, 160, 2, 1)};
-const tuile_panel_t tuile_st7735_128x128 = {
+const TUILE_FLASH tuile_panel_t tuile_st7735_128x128 = {
     .name = "st7735-128x128", .rotation_base = TUILE_MADCTL_BGR, ST7735(132, 132, 128, 128, 2, 1)};
-const tuile_panel_t tuile_st7735_80x160 = {
+const TUILE_FLASH tuile_panel_t tuile_st7735_80x160 = {
     .name = "st7735-80x160", .rotation_base = TUILE_MADCTL_BGR, .inverted = 1, ST7735(132, 162, 80, 160, 26, 1)};
-const tuile_panel_t tuile_st7735_80x160_0 = {.name = "st7735-80x160-0", ST7735(128, 160, 80, 160, 24, 0)};
+const TUILE_FLASH tuile_panel_t tuile_st7735_80x160_0 = {.name = "st7735-80x160-0", ST7735(128, 160, 80, 160, 24, 0)};

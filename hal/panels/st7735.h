@@ -8,10 +8,10 @@
 
 #include "../panel.h"
 
-extern const tuile_panel_t tuile_st7735_128x160;       /* memory of 128 x 160: "red tab" */
-extern const tuile_panel_t tuile_st7735_128x160_green; /* memory of 132 x 162, offset 2, 1: "green tab" */
-extern const tuile_panel_t tuile_st7735_128x128;       /* memory of 132 x 132, offset 2, 1 (2, 3 with MX and MY): 1.44 inch */
-extern const tuile_panel_t tuile_st7735_80x160;        /* 132 x 162, offset 26, 1: IPS of 0.96 inch, blue first */
-extern const tuile_panel_t tuile_st7735_80x160_0;      /* 128 x 160, offset 24, 0: the same size, red first, not inverted */
+extern const TUILE_FLASH tuile_panel_t tuile_st7735_128x160;       /* memory of 128 x 160: "red tab" */
+extern const TUILE_FLASH tuile_panel_t tuile_st7735_128x160_green; /* memory of 132 x 162, offset 2, 1: "green tab" */
+extern const TUILE_FLASH tuile_panel_t tuile_st7735_128x128; /* memory of 132 x 132, offset 2, 1 (2, 3 with MX and MY): 1.44 inch */
+extern const TUILE_FLASH tuile_panel_t tuile_st7735_80x160;  /* 132 x 162, offset 26, 1: IPS of 0.96 inch, blue first */
+extern const TUILE_FLASH tuile_panel_t tuile_st7735_80x160_0; /* 128 x 160, offset 24, 0: the same size, red first, not inverted */
 
 #endif

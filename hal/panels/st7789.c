@@ -5,7 +5,7 @@
 
 /* A line is a command. */
 /* clang-format off */
-static const uint8_t init[] = {
+static const TUILE_FLASH uint8_t init[] = {
     1, 0x11, TUILE_SEQUENCE_DELAY_MS(120), /* SLPOUT; 5 ms would do for a command, 120 before it may sleep again */
     /* RAMCTRL: high byte first, and 12 and 16 bits become 18 by repeating the upper ones (EPF 0; 3 at reset) */
     3, 0xB0, 0x00, 0xC0,
@@ -13,9 +13,9 @@ static const uint8_t init[] = {
 };
 /* clang-format on */
 
-static const uint8_t on[] = {1, 0x29};                                                    /* DISPON */
-static const uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)}; /* DISPOFF, SLPIN */
-static const uint8_t tearing[] = {2, 0x35, 0x00};                                         /* TEON, vertical blank only */
+static const TUILE_FLASH uint8_t on[] = {1, 0x29};                                                    /* DISPON */
+static const TUILE_FLASH uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)}; /* DISPOFF, SLPIN */
+static const TUILE_FLASH uint8_t tearing[] = {2, 0x35, 0x00}; /* TEON, vertical blank only */
 
 #define MODES \
     { 0, TUILE_EXCHANGE | TUILE_MIRROR_X, TUILE_MIRROR_X | TUILE_MIRROR_Y, TUILE_EXCHANGE | TUILE_MIRROR_Y }
@@ -42,9 +42,10 @@ static const uint8_t tearing[] = {2, 0x35, 0x00};                               
     .rated_pixel_clock_hz = 62500000 /* write cycle 16 ns; modules run at up to 85 MHz */
 /* clang-format on */
 
-const tuile_panel_t tuile_st7789_240x320 = {.name = "st7789-240x320", ST7789(240, 320, 0, 0)};
-const tuile_panel_t tuile_st7789_240x240 = {.name = "st7789-240x240", ST7789(240, 240, 0, 0)};
-const tuile_panel_t tuile_st7789_135x240 = {.name = "st7789-135x240", ST7789(135, 240, 52, 40)}; /* 53 from the other end */
-const tuile_panel_t tuile_st7789_170x320 = {.name = "st7789-170x320", ST7789(170, 320, 35, 0)};
-const tuile_panel_t tuile_st7789_172x320 = {.name = "st7789-172x320", ST7789(172, 320, 34, 0)};
-const tuile_panel_t tuile_st7789_240x280 = {.name = "st7789-240x280", ST7789(240, 280, 0, 20)};
+const TUILE_FLASH tuile_panel_t tuile_st7789_240x320 = {.name = "st7789-240x320", ST7789(240, 320, 0, 0)};
+const TUILE_FLASH tuile_panel_t tuile_st7789_240x240 = {.name = "st7789-240x240", ST7789(240, 240, 0, 0)};
+const TUILE_FLASH tuile_panel_t tuile_st7789_135x240 = {.name = "st7789-135x240",
+                                                        ST7789(135, 240, 52, 40)}; /* 53 from the other end */
+const TUILE_FLASH tuile_panel_t tuile_st7789_170x320 = {.name = "st7789-170x320", ST7789(170, 320, 35, 0)};
+const TUILE_FLASH tuile_panel_t tuile_st7789_172x320 = {.name = "st7789-172x320", ST7789(172, 320, 34, 0)};
+const TUILE_FLASH tuile_panel_t tuile_st7789_240x280 = {.name = "st7789-240x280", ST7789(240, 280, 0, 20)};

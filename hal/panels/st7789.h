@@ -5,11 +5,11 @@
 
 #include "../panel.h"
 
-extern const tuile_panel_t tuile_st7789_240x320;
-extern const tuile_panel_t tuile_st7789_240x240;
-extern const tuile_panel_t tuile_st7789_135x240;
-extern const tuile_panel_t tuile_st7789_170x320;
-extern const tuile_panel_t tuile_st7789_172x320;
-extern const tuile_panel_t tuile_st7789_240x280;
+extern const TUILE_FLASH tuile_panel_t tuile_st7789_240x320;
+extern const TUILE_FLASH tuile_panel_t tuile_st7789_240x240;
+extern const TUILE_FLASH tuile_panel_t tuile_st7789_135x240;
+extern const TUILE_FLASH tuile_panel_t tuile_st7789_170x320;
+extern const TUILE_FLASH tuile_panel_t tuile_st7789_172x320;
+extern const TUILE_FLASH tuile_panel_t tuile_st7789_240x280;
 
 #endif

@@ -5,7 +5,7 @@
 
 /* A line is a command. */
 /* clang-format off */
-static const uint8_t init[] = {
+static const TUILE_FLASH uint8_t init[] = {
     2, 0xF0, 0xC3,                 /* CSCON: table 2 is closed until both its parts are opened */
     2, 0xF0, 0x96,
     2, 0xB4, 0x01,                 /* DIC: the voltage changes sign with each dot */
@@ -22,15 +22,15 @@ static const uint8_t init[] = {
 };
 /* clang-format on */
 
-static const uint8_t on[] = {1, 0x29};                                                    /* DISPON */
-static const uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)}; /* DISPOFF, SLPIN */
-static const uint8_t tearing[] = {2, 0x35, 0x00};                                         /* TEON, vertical blank only */
+static const TUILE_FLASH uint8_t on[] = {1, 0x29};                                                    /* DISPON */
+static const TUILE_FLASH uint8_t sleep_sequence[] = {1, 0x28, 1, 0x10, TUILE_SEQUENCE_DELAY_MS(120)}; /* DISPOFF, SLPIN */
+static const TUILE_FLASH uint8_t tearing[] = {2, 0x35, 0x00}; /* TEON, vertical blank only */
 
 /* The first column is at the right. */
 #define MODES \
     { TUILE_MIRROR_X, TUILE_EXCHANGE, TUILE_MIRROR_Y, TUILE_EXCHANGE | TUILE_MIRROR_X | TUILE_MIRROR_Y }
 
-const tuile_panel_t tuile_st7796 = {
+const TUILE_FLASH tuile_panel_t tuile_st7796 = {
     .name = "st7796",
     .ram_width = 320,
     .ram_height = 480,
