@@ -16,21 +16,21 @@ typedef struct tree_plane {
     int64_t d;
 } tree_plane_t;
 
-static inline uint32_t tree_word(const uint8_t *tree, uint32_t at) { return model_u32(tree + 4 * (size_t)at); }
+static inline uint32_t tree_word(const TUILE_FLASH uint8_t *tree, uint32_t at) { return model_u32(tree + 4 * (size_t)at); }
 
-static inline tree_convex_t tree_convex(const uint8_t *node) {
+static inline tree_convex_t tree_convex(const TUILE_FLASH uint8_t *node) {
     return (tree_convex_t){model_u32(node + 4) >> 1, model_u32(node + 8) >> 1, model_u32(node + 12) >> 1,
                            TREE_VALUE(model_u32(node))};
 }
 
-static inline uint32_t tree_second(const uint8_t *node) { return model_u32(node + 4) >> 1; }
+static inline uint32_t tree_second(const TUILE_FLASH uint8_t *node) { return model_u32(node + 4) >> 1; }
 
-static inline tree_plane_t tree_plane(const uint8_t *node) {
+static inline tree_plane_t tree_plane(const TUILE_FLASH uint8_t *node) {
     tree_plane_t plane;
     for (unsigned i = 0; i < 3; i++) {
         plane.n[i] = (int32_t)model_u32(node + 8 + 4 * i) >> 1;
     }
-    plane.d = (int64_t)((int32_t)model_u32(node + 24) >> 1) * (1 << 30) + (int64_t)(model_u32(node + 20) >> 1);
+    plane.d = (int64_t)((int32_t)model_u32(node + 24) >> 1) * (INT32_C(1) << 30) + (int64_t)(model_u32(node + 20) >> 1);
     return plane;
 }
 

@@ -6,16 +6,6 @@
 #include "../features.h"
 #include "../frame/frame.h"
 
-/* B. E. Bayer, An optimum method for two-level rendition of continuous-tone pictures, 1973: each matrix is made of four of half the
- * size, 4 m + {0, 2; 3, 1}, so the lowest bits of x and y, which tell neighbours apart, weigh most. */
-unsigned resolve_bayer(uint32_t x, uint32_t y) {
-    unsigned value = 0;
-    for (unsigned bit = 0; bit < 3; bit++) {
-        value = 4u * value + 2u * ((x ^ y) >> bit & 1u) + (y >> bit & 1u);
-    }
-    return value;
-}
-
 static void thresholds_make(resolve_run_t *run, bool dither, uint32_t x, uint32_t y) {
     for (uint32_t i = 0; i < RESOLVE_MATRIX; i++) {
         run->thresholds[i] = (dither ? 2u * resolve_bayer(x + i, y) + 1u : 64u) << 2u * run->shift;

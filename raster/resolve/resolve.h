@@ -14,6 +14,7 @@
 #define TUILE_RESOLVE_RESOLVE_H
 
 #include "../pixel.h"
+#include "bayer.h"
 
 #define RESOLVE_RUN 32    /* pixels that are resolved at once: whole periods of the matrix */
 #define RESOLVE_MATRIX 8u /* pixels along the matrix */
@@ -45,8 +46,5 @@ typedef struct resolve_way {
 /* For one sample a pixel (single.c), and for several (mean.c). Not for FACE_IDS, nor for samples that are wire bytes. */
 resolve_way_t resolve_single(pixel_kind_t kind, uint8_t format);
 resolve_way_t resolve_mean(pixel_kind_t kind, uint8_t format);
-
-/* The value of Bayer's 8x8 matrix at a pixel of the window, 0 ... 63. */
-unsigned resolve_bayer(uint32_t x, uint32_t y);
 
 #endif
