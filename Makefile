@@ -205,7 +205,8 @@ objects: $(CORE_OBJ)
 	@sh tests/features.sh $(OBJ)/features $(CC) $(CFLAGS_CORE)
 
 include tests/linux/linux.mk
-include firmware/firmware.mk tests/emulators/emulators.mk tests/emulators/pico.mk tests/tsan.mk
+include firmware/firmware.mk firmware/uno/uno.mk
+include tests/emulators/emulators.mk tests/emulators/pico.mk tests/emulators/uno.mk tests/tsan.mk
 
 # ---- figures -------------------------------------------------------------------------------------------------------
 SIZE ?= 320x240

@@ -1,0 +1,42 @@
+# The Arduino Uno. Its program is not one of the boards' (firmware.mk): it has no room for the player and the full renderer.
+
+UNO := $(FIRMWARE)/uno
+UNO_SRC := $(wildcard firmware/uno/*.c) firmware/board/memory.c hal/display.c hal/panel.c hal/wire.c hal/panels/ssd1306.c \
+           raster/pixel.c $(filter-out raster/compact/view.c,$(wildcard raster/compact/*.c))
+# gnu11: flash is an address space of its own (base/flash.h). -fno-ivopts: gcc 5.4 dies of pointers into it in loops. The other -fno-
+# together save 1 366 bytes of 29 396, and -fno-tree-switch-conversion tables in RAM.
+UNO_FLAGS := -mmcu=atmega328p -std=gnu11 -Os -ffreestanding -fno-ivopts -fno-tree-loop-optimize -fno-move-loop-invariants \
+             -fno-inline-small-functions -fno-tree-switch-conversion -mstrict-X -mcall-prologues -ffunction-sections -fdata-sections -fstack-usage
+UNO_OBJ := $(patsubst %.c,$(UNO)/%.o,$(UNO_SRC)) $(UNO)/firmware/uno/start.o $(UNO)/model_cube.o $(UNO)/model_room.o
+
+$(BUILD)/need/avr: ; $(call need,gcc-avr binutils-avr,a compiler for AVR)
+
+$(OBJ)/uno_views: $(OBJ)/tests/emulators/uno_views.o $(SIM_LIB_OBJ) $(CORE_OBJ)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
+
+$(UNO)/model_%.c: $(FIRMWARE)/models/%.tuile $(OBJ)/uno_views
+	@mkdir -p $(@D)
+	@echo "  views $@"; $(OBJ)/uno_views $* $< >$@.new && mv $@.new $@
+
+$(UNO)/model_%.o: $(UNO)/model_%.c | $(BUILD)/need/avr
+	@avr-gcc $(UNO_FLAGS) -I. -c $< -o $@
+
+$(UNO)/firmware/board/memory.o: UNO_MORE := -fno-tree-loop-distribute-patterns
+$(UNO)/%.o: %.c Makefile firmware/uno/uno.mk | $(BUILD)/need/avr
+	@mkdir -p $(@D)
+	@echo "  uno $<"; avr-gcc $(UNO_FLAGS) $(UNO_MORE) $(WARN) -MMD -MP -c $< -o $@
+
+$(UNO)/%.o: %.S firmware/uno/uno.mk | $(BUILD)/need/avr
+	@mkdir -p $(@D)
+	@echo "  uno $<"; avr-gcc -mmcu=atmega328p -c $< -o $@
+
+$(UNO)/frames.elf: $(UNO_OBJ) firmware/uno/link.ld
+	@echo "  uno $@"; avr-gcc -mmcu=atmega328p -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings -Wl,--relax -Wl,-Map,$(UNO)/frames.map \
+	  -T firmware/uno/link.ld $(filter %.o,$^) -lgcc -o $@
+	@avr-objcopy -O binary $@ $(UNO)/frames.bin
+	@avr-objcopy -O ihex $@ $(UNO)/frames.hex
+
+.PHONY: firmware-uno
+firmware: firmware-uno
+firmware-uno: $(UNO)/frames.elf ## the Arduino Uno's program: build/firmware/uno/frames.hex
+	@avr-size $<
