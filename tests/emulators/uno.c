@@ -50,7 +50,7 @@ typedef struct uno {
     sim_error_t error;           /* the first fault */
     uint8_t sent, sent_port;     /* the byte on the wire, and the pins when it set out */
     uint32_t sent_clock_hz;
-    bool sending, ended;
+    bool sending, ended, reset;
     uint64_t begun, last_told; /* cycles */
     unsigned shown, bytes, stack_unused, stack_low;
     struct {
@@ -85,6 +85,7 @@ static avr_cycle_count_t byte_out(avr_t *avr, avr_cycle_count_t when, void *para
     uno->sending = false;
     avr->data[SPSR] |= SPIF;
     if ((port ^ uno->sent_port) & (PIN_DC | PIN_SELECT)) { fault(uno, "D/C or chip select moved while a byte was on the wire"); }
+    if (!uno->reset) { fault(uno, "a byte, but the panel was never reset"); }
     if (port & PIN_SELECT) {
         fault(uno, "a byte while the panel is not selected");
     } else if (uno->chip->receive(uno->chip, (port & PIN_DC) != 0, &uno->sent, 1, uno->sent_clock_hz, now_ns(uno))) {
@@ -122,6 +123,7 @@ static void reset_moved(struct avr_irq_t *irq, uint32_t value, void *param) {
     uno_t *uno = param;
 
     (void)irq;
+    uno->reset |= value == 0;
     uno->chip->reset(uno->chip, value == 0, now_ns(uno));
     if (uno->chip->fault.text[0]) { fault(uno, uno->chip->fault.text); }
 }

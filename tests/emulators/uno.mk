@@ -15,6 +15,7 @@ size-firmware-uno: $(UNO)/frames.elf
 test-firmware: test-firmware-uno
 test-firmware-uno: $(OBJ)/uno $(UNO)/frames.elf size-firmware-uno
 	@$(OBJ)/uno test $(UNO)/frames.bin $(FIRMWARE)/models
+	@sh $(EMULATORS)/uno_mutants.sh $(OBJ)/uno $(UNO) $(FIRMWARE)/models $(UNO)/mutants $(UNO_FLAGS)
 
 emulate-uno: $(OBJ)/uno $(UNO)/frames.elf ## runs the Uno in simavr: frames as PNG, cycles of each
 	@mkdir -p $(UNO)/frames && $(OBJ)/uno show $(UNO)/frames.bin $(FIRMWARE)/models $(UNO)/frames
