@@ -67,7 +67,7 @@ endef
 
 .PHONY: golden help all demo test test-asan test-clang check bench bench-methods bench-instances bench-linux docs-pictures gallery install-udev size size-arm format format-check lint clean
 help: ## this list
-	@grep -hE '^[a-z0-9_-]+:.*##' Makefile tests/linux/linux.mk firmware/firmware.mk tests/emulators/emulators.mk | sed 's/:.*##/\t/' | expand -t 16
+	@grep -hE '^[a-z0-9_-]+:.*##' Makefile tests/linux/linux.mk firmware/firmware.mk tests/emulators/emulators.mk firmware/uno/uno.mk tests/emulators/uno.mk | sed 's/:.*##/\t/' | expand -t 16
 
 all: $(TUILE) ## build the simulator, build/tuile
 
