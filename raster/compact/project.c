@@ -64,7 +64,9 @@ bool compact_project(const tuile_compact_view_t *view, const compact_place_t *pl
 
 /* A window coordinate of the 32-bit path. */
 static int32_t coarse_coordinate(const tuile_compact_row_t *row, const int16_t q[3], uint32_t r, unsigned shift) {
-    return (fixed_mul_high(row_coarse(row, q), r) + (int32_t)(UINT32_C(1) << (shift - 1u))) >> shift;
+    const int32_t high = (int32_t)(((int64_t)row_coarse(row, q) * r) >> 32);
+
+    return (high + (int32_t)(UINT32_C(1) << (shift - 1u))) >> shift;
 }
 
 static bool project_position(const tuile_compact_view_t *view, const int16_t q[3], const int8_t *f, tuile_compact_point_t *point,
