@@ -5,7 +5,7 @@
  * Usage: usb_device gud|ax206 PICTURE.ppm [OPTION...]
  *   size=WxH  serial=TEXT
  *   format=N  (of gud, hexadecimal; several in the order they are offered)  buffer=BYTES  rotations=MASK
- *   lz4  status  full  backlight  connectors=N  edid
+ *   lz4  status  full  backlight
  *   unplug=N  the cable is pulled when bulk transfer N has come, before it is answered
  *   hold=N    from bulk transfer N on nothing is answered
  * PICTURE is the last that was not black. One line on stdout tells the counts, one on stderr what the model refused. */
