@@ -62,7 +62,6 @@ typedef enum tuile_addressing {
 } tuile_addressing_t;
 
 typedef struct tuile_panel {
-    char name[24];                    /* as `--panel` takes it: "st7789-240x240"; part of the struct, so that it is in flash too */
     uint16_t ram_width, ram_height;   /* pixels the controller has memory for, or of these what it mirrors within (SSD13xx) */
     uint16_t view_width, view_height; /* pixels the glass shows, at rotation 0 */
     uint16_t offset_x, offset_y;      /* of the first shown pixel in the RAM, unmirrored */
@@ -109,6 +108,9 @@ typedef struct tuile_panel {
     uint32_t command_clock_hz;     /* for commands: slow enough for any wiring, since a glitch here spoils all that follows */
     uint32_t pixel_clock_hz;       /* for pixels, when the caller names none */
     uint32_t rated_pixel_clock_hz; /* what the data sheet promises */
+
+    char name[24]; /* as `--panel` takes it: "st7789-240x240". In the struct, hence in flash as all of it; last, since what the
+                      driver reads is then near its beginning, which is shorter code on many machines */
 } tuile_panel_t;
 
 /* Where the view lies in the RAM as it is numbered in this rotation, in pixels: the formula above. */

@@ -181,21 +181,28 @@ void compact_clear(tuile_compact_t *compact) {
     }
 }
 
-void compact_fill(tuile_compact_t *compact, const compact_ring_t *ring, uint8_t level) {
-    int16_t top = INT16_MAX, bottom = INT16_MIN;
-    plane_t plane;
-    bool planned = compact->depth == NULL;
+bool compact_rows(const tuile_compact_t *compact, const compact_ring_t *ring, int16_t *first, int16_t *end) {
+    int16_t left = INT16_MAX, top = INT16_MAX, right = INT16_MIN, bottom = INT16_MIN;
 
     for (uint8_t i = 0; i < ring->count; i++) {
-        const int16_t y = ring->point[i].y;
-        top = y < top ? y : top;
-        bottom = y > bottom ? y : bottom;
+        const tuile_compact_point_t *p = &ring->point[i];
+        left = p->x < left ? p->x : left;
+        right = p->x > right ? p->x : right;
+        top = p->y < top ? p->y : top;
+        bottom = p->y > bottom ? p->y : bottom;
     }
     top = row_of(top);
     bottom = row_of(bottom);
-    if (top < (int16_t)compact->top) { top = (int16_t)compact->top; }
-    if (bottom > (int16_t)compact->bottom) { bottom = (int16_t)compact->bottom; }
-    for (int16_t row = top; row < bottom; row++) {
+    *first = top > (int16_t)compact->top ? top : (int16_t)compact->top;
+    *end = bottom < (int16_t)compact->bottom ? bottom : (int16_t)compact->bottom;
+    return *first < *end && row_of(left) < (int16_t)compact->right && row_of(right) > (int16_t)compact->left;
+}
+
+void compact_fill(tuile_compact_t *compact, const compact_ring_t *ring, int16_t first, int16_t end, uint8_t level) {
+    plane_t plane;
+    bool planned = compact->depth == NULL;
+
+    for (int16_t row = first; row < end; row++) {
         int16_t crossings[COMPACT_RING];
         const uint8_t count = crossings_of(ring, row, crossings);
 

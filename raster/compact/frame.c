@@ -168,9 +168,11 @@ static void find_face(const tuile_compact_t *compact, uint16_t number, face_t *f
 
 /* Polygons without area may still cover pixels, triangles do not. What crosses itself is seen whichever way it turns here. */
 static void draw_ring(tuile_compact_t *compact, compact_ring_t *ring, const TUILE_FLASH uint8_t *normal, const face_t *face) {
-    const int sign = sign_of_area(ring);
+    int16_t first, end;
 
-    if (ring->count < 3 || (ring->count == 3 && sign == 0) || (sign < 0 && !face->crossing)) { return; }
+    if (ring->count < 3 || !compact_rows(compact, ring, &first, &end)) { return; }
+    const int sign = sign_of_area(ring);
+    if ((ring->count == 3 && sign == 0) || (sign < 0 && !face->crossing)) { return; }
     if (ring->count == 3 && sign < 0) {
         const tuile_compact_point_t point = ring->point[1];
         const uint32_t depth = ring->depth[1];
@@ -180,7 +182,7 @@ static void draw_ring(tuile_compact_t *compact, compact_ring_t *ring, const TUIL
         ring->point[2] = point;
         ring->depth[2] = depth;
     }
-    compact_fill(compact, ring, level_of(compact, normal, face->material, sign < 0));
+    compact_fill(compact, ring, first, end, level_of(compact, normal, face->material, sign < 0));
 }
 
 static int draw_face(tuile_compact_t *compact, uint16_t number) {

@@ -56,7 +56,10 @@ uint8_t compact_level(uint16_t luma);
 /* A tile of background. */
 void compact_clear(tuile_compact_t *compact);
 
-/* The ring's pixels in the tile. By z-buffer, or over whatever is there. */
-void compact_fill(tuile_compact_t *compact, const compact_ring_t *ring, uint8_t level);
+/* The rows of the tile that the ring may cover pixels of; false: none. */
+bool compact_rows(const tuile_compact_t *compact, const compact_ring_t *ring, int16_t *first, int16_t *end);
+
+/* The ring's pixels in these rows of the tile. By z-buffer, or over whatever is there. */
+void compact_fill(tuile_compact_t *compact, const compact_ring_t *ring, int16_t first, int16_t end, uint8_t level);
 
 #endif

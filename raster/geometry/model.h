@@ -167,7 +167,7 @@ enum { TREE_CONVEX = 1, TREE_PLANE = 2 };
 #define TREE_PLANE_WORDS 7u
 #define TREE_CLUSTERS_MAX (1u << 24)
 
-static inline uint16_t model_u16(const TUILE_FLASH uint8_t *p) { return (uint16_t)(p[0] | (unsigned)p[1] << 8); }
+static inline uint16_t model_u16(const TUILE_FLASH uint8_t *p) { return (uint16_t)(p[0] | (uint16_t)p[1] << 8); }
 static inline int16_t model_i16(const TUILE_FLASH uint8_t *p) { return (int16_t)model_u16(p); }
 static inline uint32_t model_u32(const TUILE_FLASH uint8_t *p) {
     return p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
