@@ -1,4 +1,4 @@
-// What a run needs of an ELF file: what is loaded where, and where symbols are. 32 bits, little-endian.
+// What a run needs of a program's files. ELF: what is loaded where, and where symbols are; 32 bits, little-endian. UF2: what goes where.
 
 const PT_LOAD = 1;
 const SHT_SYMTAB = 2;
@@ -29,4 +29,19 @@ export function findSymbol(file, name) {
     }
   }
   throw new Error(`the program has no ${name}`);
+}
+
+/** Calls load(address, bytes) for each block of a UF2 file; throws where the boot ROM would ignore one, or wait for more. */
+export function loadUf2(file, family, load) {
+  const count = file.length / 512;
+  for (let block = 0; block < count; block++) {
+    const [first, second, flags, address, size, number, blocks, of] = [0, 4, 8, 12, 16, 20, 24, 28].map((o) => file.readUInt32LE(512 * block + o));
+    if (first !== 0x0a324655 || second !== 0x9e5d5157 || file.readUInt32LE(512 * block + 508) !== 0x0ab16f30) {
+      throw new Error(`block ${block} of the UF2 file has not its magic numbers`);
+    }
+    if (flags !== 0x2000 || of !== family || size !== 256 || address % 256 || number !== block || blocks !== count) {
+      throw new Error(`block ${block} of the UF2 file would not be taken`);
+    }
+    load(address, file.subarray(512 * block + 32, 512 * block + 32 + size));
+  }
 }

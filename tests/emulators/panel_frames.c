@@ -3,10 +3,10 @@
  * Usage: panel_frames TRACE PANEL MODELS COUNT [PICTURES]
  *
  * TRACE is what an emulator wrote (trace.h) while the board ran firmware/frames.c. A chip of PANEL takes the bytes of the trace,
- * and at each line "frame SCENE METHOD NUMBER ..." its glass must be lit and equal that of the simulator, which draws the same
- * frame for the same panel in a block of its own size. MODELS is the folder of the compiled models. Just COUNT frames must come,
- * and no error and no scene that found no room. PICTURES, the beginning of names, receives the glass as
- * PICTURES-SCENE-METHOD-NUMBER.png.
+ * and at each line "frame SCENE METHOD NUMBER ..." it must have been reset, and its glass must be lit and equal that of the
+ * simulator, which draws the same frame for the same panel in a block of its own size. MODELS is the folder of the compiled models.
+ * Just COUNT frames ("any": how ever many) must come, and no error and no scene that found no room. PICTURES, the beginning of
+ * names, receives the glass as PICTURES-SCENE-METHOD-NUMBER.png.
  *
  * One line on stdout; an error ends it with one line on stderr and the code 1. */
 #include "trace.h"
@@ -39,6 +39,7 @@ typedef struct frames {
     sim_chip_t *chip; /* the board's */
     drawn_t drawn;
     uint8_t light;
+    bool reset; /* its line has been low */
     unsigned count;
 } frames_t;
 
@@ -131,6 +132,7 @@ static int compare(frames_t *frames, const char *line, sim_error_t *error) {
     script = scene_find(scene);
     method = find_method(method_name);
     if (!script || method < 0) { return sim_fail(error, "%s: no such scene or method", line); }
+    if (!frames->reset) { return sim_fail(error, "%s: the panel's reset line was never low", line); }
     if (frames->light == 0) { return sim_fail(error, "%s: the panel is dark", line); }
     if (choose(&frames->drawn, frames->models, script, (uint8_t)method, error)) { return -1; }
     if ((result = player_frame(&frames->drawn.player, number))) {
@@ -160,6 +162,7 @@ static int run(frames_t *frames, FILE *file, const sim_panel_t *panel, sim_error
     if (open_drawn(&frames->drawn, panel, error) || !(frames->chip = panel->create(error))) { return -1; }
     while ((result = trace_next(&trace, &event, error)) > 0) {
         if (event.kind == TRACE_LIGHT) { frames->light = event.flag; }
+        if (event.kind == TRACE_RESET && event.flag == 0) { frames->reset = true; }
         result =
             event.kind == TRACE_TEXT ? text(frames, (const char *)event.bytes, error) : trace_feed(frames->chip, &event, error);
         if (result) { break; }
@@ -189,7 +192,7 @@ int main(int count, char **arguments) {
     frames.models = arguments[3];
     frames.pictures = count > 5 ? arguments[5] : NULL;
     result = run(&frames, file, panel, &error);
-    if (!result && frames.count != strtoul(arguments[4], NULL, 10)) {
+    if (!result && strcmp(arguments[4], "any") != 0 && frames.count != strtoul(arguments[4], NULL, 10)) {
         result = sim_fail(&error, "%u frames, but %s are expected", frames.count, arguments[4]);
     }
     if (result) {

@@ -23,14 +23,18 @@ fail() {
     exit 1
 }
 
-# frames PANEL COUNT OPTIONS
+# frames PANEL COUNT OPTIONS [OF THE EMULATOR]
 frames() {
-    emulate "$programs/frames" --trace "$out/$1.trace" --options "panel=$1 $3" >"$out/$1.txt" || fail "$1 $3: $(tail -3 "$out/$1.txt")"
-    "$panel_frames" "$out/$1.trace" "$1" "$build/firmware/models" "$2" || fail "the trace is $out/$1.trace"
-    rm "$out/$1.trace"
+    panel=$1
+    count=$2
+    options="panel=$1 $3"
+    shift 3
+    emulate "$programs/frames" --trace "$out/$panel.trace" --options "$options" "$@" >"$out/$panel.txt" || fail "$options: $(tail -3 "$out/$panel.txt")"
+    "$panel_frames" "$out/$panel.trace" "$panel" "$build/firmware/models" "$count" || fail "the trace is $out/$panel.trace"
+    rm "$out/$panel.trace"
     # Painted stack: what was used is no more than what the call graph says and an interrupt.
-    awk -v most="$stack" '$1 == "stack" { used = $2; room = $4 } END { exit !(used > 0 && used <= most + 72 && used <= room) }' "$out/$1.txt" ||
-        fail "$(tail -1 "$out/$1.txt"), but at most $stack by the call graph"
+    awk -v most="$stack" '$1 == "stack" { used = $2; room = $4 } END { exit !(used > 0 && used <= most + 72 && used <= room) }' "$out/$panel.txt" ||
+        fail "$(tail -1 "$out/$panel.txt"), but at most $stack by the call graph"
 }
 
 # breaks PROGRAM OPTIONS REASON: it must end with it.
@@ -48,7 +52,7 @@ if python3 "$here/../../firmware/pico/boot2.py" check "$out/spoilt.bin" 2>/dev/n
 # 18 pairs of scene and method.
 frames st7789-240x240 144 frames=8
 frames st7789-240x320 8 "frames=8 scene=bunny method=zbuffer"
-frames ili9341 8 "frames=8 scene=room method=tree"
+frames ili9341 8 "frames=8 scene=room method=tree" --flash "$programs/frames.uf2"
 frames ili9341 16 "frames=4 scene=spider"
 
 emulate "$more/overlap" >"$out/overlap.txt" || fail "$(cat "$out/overlap.txt")"
@@ -61,6 +65,13 @@ awk '$1 == "render" { render = $5 } $1 == "wire" { wire = $5 }
      }
      END { printf "overlap: %d frames, at worst %s: %.2f %% over the longer\n", frames, text, 100 * (worst - 1)
            exit !(frames == 8 && worst <= 1.03) }' "$out/overlap.txt" || fail "drawing and sending do not overlap: $out/overlap.txt"
+
+# Onto a board that shows its volume, and onto none.
+mkdir -p "$out/volume" && : >"$out/volume/INFO_UF2.TXT"
+MOUNTED=$out/volume sh "$here/../../firmware/rp2/flash.sh" RPI-RP2 rp2040 "$programs/frames.elf" "$programs/frames.uf2" >/dev/null
+cmp "$programs/frames.uf2" "$out/volume/frames.uf2"
+if MOUNTED=$out/none PATH=$out/none /bin/sh "$here/../../firmware/rp2/flash.sh" RPI-RP2 rp2040 x y 2>"$out/flash.txt"; then fail "flashed without a board"; fi
+grep -q "hold BOOTSEL" "$out/flash.txt" || fail "no board: $(cat "$out/flash.txt")"
 
 breaks "$more/mutant_1" "scene=cube frames=1" "DMA writes to SPI0, but its requests are off"
 breaks "$more/mutant_2" "scene=cube frames=1" "a frame on SPI0, but GPIO 18, its clock, has the function 31"

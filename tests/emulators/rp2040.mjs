@@ -1,15 +1,15 @@
 // Runs a program on an emulated RP2040 and writes down what its panel's wires did.
 //
-// node rp2040.mjs --modules FOLDER --program FILE.elf [--trace FILE] [--options TEXT] [--seconds N] [--quiet]
+// node rp2040.mjs --modules FOLDER --program FILE.elf [--flash FILE.uf2] [--trace FILE] [--options TEXT] [--seconds N] [--quiet]
 //
-// FOLDER: where npm has put rp2040js. --seconds: of this machine's processor, 300 by default. The program's lines are printed, and
+// FOLDER: where npm has put rp2040js. FILE.uf2: what goes into flash, in the place of the program's segments. --seconds: of this machine's processor, 300 by default. The program's lines are printed, and
 // for each frame its time, the part of it that the core slept, and that of its bits on the wire. Exit code 0 when the program
 // parked with 0; else 1 and one line on stderr that begins with the reason.
 import { createRequire } from 'node:module';
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { parseArgs } from 'node:util';
-import { loadElf, findSymbol } from './elf.mjs';
+import { loadElf, loadUf2, findSymbol } from './elf.mjs';
 import { Trace } from './trace.mjs';
 import { Violation, beStrict, checkFrame, refuse } from './rp2040_strict.mjs';
 
@@ -17,6 +17,7 @@ const PINS = { dc: 16, select: 17, clock: 18, data: 19, light: 20, reset: 21 }; 
 const HIGH = 1;
 const LOW = 0;
 const FLASH = 0x10000000;
+const RP2040_FAMILY = 0xe48bff56;
 const OPTIONS_AT = 0x1ff000;
 const PARK = 1; // of BKPT; the code is in r0
 const HARD_FAULT = 3;
@@ -24,7 +25,7 @@ const FUNCTION_PWM = 4;
 
 const { values: args } = parseArgs({
   options: {
-    modules: { type: 'string' }, program: { type: 'string' }, trace: { type: 'string' }, options: { type: 'string' },
+    modules: { type: 'string' }, program: { type: 'string' }, flash: { type: 'string' }, trace: { type: 'string' }, options: { type: 'string' },
     seconds: { type: 'string', default: '300' }, quiet: { type: 'boolean', default: false },
   },
 });
@@ -39,7 +40,11 @@ const elf = readFileSync(args.program);
 const lines = [];
 let parked = null;
 
-loadElf(elf, (address, bytes) => rp.flash.set(bytes, address - FLASH));
+if (args.flash) {
+  loadUf2(readFileSync(args.flash), RP2040_FAMILY, (address, bytes) => rp.flash.set(bytes, address - FLASH));
+} else {
+  loadElf(elf, (address, bytes) => rp.flash.set(bytes, address - FLASH));
+}
 if (args.options) { rp.flash.set(Buffer.from(`${args.options}\0`, 'latin1'), OPTIONS_AT); }
 
 // ---- the wires ----
