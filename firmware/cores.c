@@ -134,7 +134,7 @@ static int finish(cores_t *cores) {
 }
 
 int cores_frame(cores_t *cores, const tuile_scene_t *scene) {
-    const uint32_t rows = tile_rows(cores), frame = cores->asked + 1u;
+    const uint32_t frame = cores->asked + 1u;
 
     cores->scene = scene;
     cores->broken = 0;
@@ -144,7 +144,7 @@ int cores_frame(cores_t *cores, const tuile_scene_t *scene) {
     while (look(&cores->done) != frame) {
         pause(cores);
     }
-    if (rows >= 2) { cores->border = (uint16_t)cores_border(cores->border, rows, cores->halves[0].busy, cores->halves[1].busy); }
+    cores->border = (uint16_t)cores_border(cores->border, tile_rows(cores), cores->halves[0].busy, cores->halves[1].busy);
     return finish(cores);
 }
 

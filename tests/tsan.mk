@@ -14,3 +14,10 @@ $(BUILD)/tsan/threads: $(patsubst %.c,$(BUILD)/tsan/%.o,$(TSAN_SRC) $(CORE_SRC))
 test-tsan: $(BUNNY_6000) ## what two cores do, by two threads under ThreadSanitizer
 	@$(MAKE) --no-print-directory VARIANT=tsan $(BUILD)/tsan/threads
 	@BUNNY_6000=$(BUNNY_6000) TSAN_OPTIONS=halt_on_error=1 $(BUILD)/tsan/threads
+
+$(OBJ)/bench-cores: $(OBJ)/tests/bench/cores.o $(CORE_OBJ)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ -lpthread -o $@
+
+.PHONY: bench-cores
+bench-cores: $(OBJ)/bench-cores firmware-models ## how much faster two cores draw than one
+	@$(OBJ)/bench-cores $(FIRMWARE)/models

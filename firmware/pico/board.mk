@@ -23,10 +23,10 @@ pico_MORE := $(BUILD)/firmware/pico-more
 pico_MUTANTS := $(patsubst %,$(pico_MORE)/mutant_%.elf,1 2 3 4)
 pico_OBJ = $(patsubst %.c,$(pico_FOLDER)/%.o,$(FIRMWARE_SRC) $(pico_SRC)) $(patsubst %,$(pico_FOLDER)/model_%.o,$(pico_SCENES))
 
-# $(call pico_relink,WITHOUT): the objects of frames.elf but one, with another in its place.
+# $(call pico_relink,WITHOUT): the objects of frames.elf but some, with others in their place.
 define pico_relink
 	@echo "  pico $@"; $(pico_TOOLS)gcc $(pico_FLAGS) -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings \
-	  -T firmware/pico/link.ld $(filter-out %/$(1),$(pico_OBJ)) $(filter %.o,$^) -lgcc -o $@
+	  -T firmware/pico/link.ld $(filter-out $(addprefix %/,$(1)),$(pico_OBJ)) $(filter %.o,$^) -lgcc -o $@
 endef
 define pico_compile
 	@mkdir -p $(@D)
@@ -42,3 +42,21 @@ $(pico_MUTANTS): $(pico_MORE)/mutant_%.elf: $(pico_MORE)/mutant_%.o $(pico_FOLDE
 	$(call pico_relink,firmware/rp2/port.o)
 $(pico_MUTANTS:.elf=.o): $(pico_MORE)/mutant_%.o: firmware/rp2/port.c
 	$(call pico_compile,-DMUTANT=$*)
+
+# Both cores (firmware/rp2/programs/two_cores.c).
+$(pico_MORE)/two_cores.elf: $(pico_MORE)/two_cores.o $(pico_MORE)/clocks.o $(pico_FOLDER)/frames.elf
+	$(call pico_relink,firmware/board/frames.o firmware/rp2/clocks.o)
+$(pico_MORE)/two_cores.o: firmware/rp2/programs/two_cores.c
+	$(call pico_compile,-DTUILE_CORES=2)
+$(pico_MORE)/clocks.o: firmware/rp2/clocks.c
+	$(call pico_compile,-DTUILE_CORES=2)
+firmware-pico: $(pico_MORE)/two_cores.elf
+
+# ---- onto a board ----
+$(pico_FOLDER)/frames.uf2: $(pico_FOLDER)/frames.elf firmware/rp2/uf2.py
+	@python3 firmware/rp2/uf2.py e48bff56 10000000 $(<:.elf=.bin) $@
+firmware-pico: $(pico_FOLDER)/frames.uf2
+
+.PHONY: flash-pico
+flash-pico: $(pico_FOLDER)/frames.uf2 ## puts the Pico's program on a board: by its volume RPI-RP2 if that is mounted, else by openocd
+	@sh firmware/rp2/flash.sh RPI-RP2 rp2040 $(pico_FOLDER)/frames.elf $<

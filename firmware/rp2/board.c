@@ -10,7 +10,11 @@
 #include "clocks.h"
 #include "port.h"
 
+#if defined(RP2350)
+#define BLOCK_BYTES (256u * 1024u)
+#else
 #define BLOCK_BYTES (128u * 1024u)
+#endif
 #define OPTIONS_BYTES 128u
 #define PIXEL_CLOCK_HZ 62500000u /* beyond what the panels' data sheets promise; modules and short wires take it */
 #define PIN_UART_TX 0u

@@ -4,7 +4,9 @@
 
 #include <stdint.h>
 
+#ifndef REGISTER /* tests have registers of their own */
 #define REGISTER(address) (*(volatile uint32_t *)(address))
+#endif
 
 /* Every peripheral register but SIO's and the core's has three more addresses, at which a write flips, sets or clears bits. */
 #define SET_BITS(reg) REGISTER((uintptr_t) & (reg) + 0x2000u)

@@ -48,6 +48,14 @@ void clocks_open(void) {
 
 void clocks_enable_irq(uint32_t irq) { NVIC_ISER = 1u << irq; }
 
+#if TUILE_CORES > 1
+/* Interrupts go to the first core. Either may wait for one: an event is kept until it is waited for, so none is missed. */
+void clocks_sleep_until(const volatile uint32_t *flag) {
+    while (!*flag) {
+        __asm__ volatile("wfe" ::: "memory");
+    }
+}
+#else
 /* With interrupts held back, one that comes between the look at the flag and WFI still ends WFI; it is let in afterwards. */
 void clocks_sleep_until(const volatile uint32_t *flag) {
     __asm__ volatile("cpsid i" ::: "memory");
@@ -60,10 +68,16 @@ void clocks_sleep_until(const volatile uint32_t *flag) {
     }
     __asm__ volatile("cpsie i" ::: "memory");
 }
+#endif
+
+void clocks_wake(volatile uint32_t *flag) {
+    *flag = 1;
+    if (TUILE_CORES > 1) { __asm__ volatile("dmb\n sev" ::: "memory"); }
+}
 
 void rp2_timer_0(void) {
     TIMER_INTR = 1;
-    alarm_rang = 1;
+    clocks_wake(&alarm_rang);
 }
 
 /* One microsecond has begun already, hence one more. */

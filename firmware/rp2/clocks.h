@@ -4,6 +4,11 @@
 
 #include <stdint.h>
 
+/* Cores that draw: 2 with -DTUILE_CORES=2. */
+#ifndef TUILE_CORES
+#define TUILE_CORES 1
+#endif
+
 /* From the ring oscillator to the crystal: clk_sys and clk_peri run at CLK_SYS_HZ, and the timer counts microseconds. */
 void clocks_open(void);
 
@@ -16,7 +21,9 @@ void clocks_delay_ms(uint32_t delay_ms);
 /* Lets an interrupt in. */
 void clocks_enable_irq(uint32_t irq);
 
-/* Sleeps until *flag is set by an interrupt. */
+/* Sleeps until *flag is set by clocks_wake in an interrupt. With TUILE_CORES=2 either core may, and interrupts are the first one's.
+ */
 void clocks_sleep_until(const volatile uint32_t *flag);
+void clocks_wake(volatile uint32_t *flag);
 
 #endif

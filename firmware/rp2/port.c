@@ -33,7 +33,7 @@ void rp2_dma_0(void);
 
 void rp2_dma_0(void) {
     DMA_INTS0 = 1u << CHANNEL;
-    sent = 1;
+    clocks_wake(&sent);
 }
 
 /* The fastest clock that is not above the one asked for. False when even the slowest is. */

@@ -1,0 +1,31 @@
+# Raspberry Pi Pico 2: RP2350, of which the first Cortex-M33 is used, with a panel on SPI0 as on the Pico. No emulator has it: it is built, and
+# its stack, flash and RAM are looked at.
+pico2_TOOLS := arm-none-eabi-
+pico2_NEED := pico
+pico2_FLAGS := -mcpu=cortex-m33 -mthumb -mfloat-abi=soft -DRP2350
+pico2_STACK := 8160 # bytes: link.ld's room without the guard
+pico2_SCENES := cube room spider bunny
+pico2_DEFINES := -DTUILE_FEATURES=64 -DTUILE_FORMATS=1
+pico2_SRC := $(wildcard firmware/cortex_m/*.c firmware/rp2/*.c) hal/panels/ili9341.c hal/panels/st7789.c
+
+pico2_FOLDER := $(BUILD)/firmware/pico2
+$(pico2_FOLDER)/frames.uf2: $(pico2_FOLDER)/frames.elf firmware/rp2/uf2.py
+	@python3 firmware/rp2/uf2.py e48bff59 10000000 $(<:.elf=.bin) $@
+firmware-pico2: $(pico2_FOLDER)/frames.uf2
+
+.PHONY: flash-pico2
+flash-pico2: $(pico2_FOLDER)/frames.uf2 ## likewise the Pico 2's: volume RP2350
+	@sh firmware/rp2/flash.sh RP2350 rp2350 $(pico2_FOLDER)/frames.elf $<
+
+# ---- both cores (firmware/rp2/programs/two_cores.c) ----
+pico2_MORE := $(BUILD)/firmware/pico2-more
+pico2_OBJ = $(patsubst %.c,$(pico2_FOLDER)/%.o,$(FIRMWARE_SRC) $(wildcard firmware/pico2/*.c) $(pico2_SRC)) $(patsubst %,$(pico2_FOLDER)/model_%.o,$(pico2_SCENES))
+$(pico2_MORE)/two_cores.elf: $(pico2_MORE)/two_cores.o $(pico2_MORE)/clocks.o $(pico2_FOLDER)/frames.elf
+	@echo "  pico2 $@"; $(pico2_TOOLS)gcc $(pico2_FLAGS) -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings \
+	  -T firmware/pico2/link.ld $(filter-out %/firmware/board/frames.o %/firmware/rp2/clocks.o,$(pico2_OBJ)) $(filter %.o,$^) -lgcc -o $@
+$(pico2_MORE)/two_cores.o: firmware/rp2/programs/two_cores.c
+$(pico2_MORE)/clocks.o: firmware/rp2/clocks.c
+$(pico2_MORE)/two_cores.o $(pico2_MORE)/clocks.o:
+	@mkdir -p $(@D)
+	@echo "  pico2 $@"; $(pico2_TOOLS)gcc $(pico2_FLAGS) $(FIRMWARE_FLAGS) $(call scene_bits,$(pico2_SCENES)) -DTUILE_CORES=2 -MMD -MP -c $< -o $@
+firmware-pico2: $(pico2_MORE)/two_cores.elf
