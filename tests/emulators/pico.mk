@@ -23,3 +23,15 @@ $(PANEL_FRAMES): $(call objects,tests/emulators/panel_frames.c tests/emulators/t
 
 test-firmware-pico: firmware-pico $(pico_MORE)/overlap.elf $(pico_MUTANTS) firmware-models $(PANEL_FRAMES) $(RP2040JS) stack-pico size-firmware-pico
 	@sh tests/emulators/pico.sh $(BUILD) $(PANEL_FRAMES) $$($(call STACK,$(pico_FOLDER),pico) --quiet)
+
+PANEL ?= st7789-240x240
+emulate-pico: $(pico_FOLDER)/frames.elf firmware-models $(PANEL_FRAMES) $(RP2040JS) # PANEL=ili9341 OPTIONS='scene=bunny frames=32'
+	@mkdir -p $(pico_FOLDER)/frames
+	@$(EMULATE_RP2040) --program $< --trace $(pico_FOLDER)/frames/wire --options 'panel=$(PANEL) $(OPTIONS)'
+	@$(PANEL_FRAMES) $(pico_FOLDER)/frames/wire $(PANEL) $(FIRMWARE)/models any $(pico_FOLDER)/frames/$(PANEL)
+	@rm $(pico_FOLDER)/frames/wire
+	@echo "Pictures: $(pico_FOLDER)/frames/$(PANEL)-*.png"
+
+# No emulator has these two.
+test-firmware-pico2: firmware-pico2 stack-pico2 size-firmware-pico2
+test-firmware-blackpill: firmware-blackpill stack-blackpill size-firmware-blackpill
