@@ -67,7 +67,7 @@ endef
 
 .PHONY: golden help all demo test test-asan test-clang check bench bench-methods bench-instances bench-linux docs-pictures gallery install-udev size size-arm format format-check lint clean
 help: ## this list
-	@grep -hE '^[a-z0-9_-]+:.*##' Makefile tests/linux/linux.mk firmware/firmware.mk tests/emulators/emulators.mk firmware/uno/uno.mk tests/emulators/uno.mk | sed 's/:.*##/\t/' | expand -t 16
+	@grep -hE '^[a-z0-9_-]+:.*##' Makefile tests/linux/linux.mk firmware/firmware.mk tests/emulators/emulators.mk firmware/uno/uno.mk tests/emulators/uno.mk firmware/pico/board.mk firmware/pico2/board.mk tests/emulators/pico.mk tests/tsan.mk | sed 's/:.*##/\t/' | expand -t 16
 
 all: $(TUILE) ## build the simulator, build/tuile
 
@@ -183,6 +183,7 @@ test: ## builds and passes everything: gcc, emulated boards, sanitizers, clang
 	$(MAKE) --no-print-directory check objects
 	$(MAKE) --no-print-directory test-firmware
 	$(MAKE) --no-print-directory check VARIANT=asan
+	$(MAKE) --no-print-directory test-tsan
 	$(MAKE) --no-print-directory test-clang
 
 golden: $(filter $(OBJ)/test_golden%,$(TESTS)) $(TUILE) $(SPIDER) $(BUNNY_6000) ## draw the golden pictures anew; look at them before you commit them

@@ -25,7 +25,7 @@ test-firmware-pico: firmware-pico $(pico_MORE)/overlap.elf $(pico_MUTANTS) firmw
 	@sh tests/emulators/pico.sh $(BUILD) $(PANEL_FRAMES) $$($(call STACK,$(pico_FOLDER),pico) --quiet)
 
 PANEL ?= st7789-240x240
-emulate-pico: $(pico_FOLDER)/frames.elf firmware-models $(PANEL_FRAMES) $(RP2040JS) # PANEL=ili9341 OPTIONS='scene=bunny frames=32'
+emulate-pico: $(pico_FOLDER)/frames.elf firmware-models $(PANEL_FRAMES) $(RP2040JS) ## runs it on an emulated RP2040: frames as PNG, times of each; PANEL=ili9341 OPTIONS='scene=bunny frames=32'
 	@mkdir -p $(pico_FOLDER)/frames
 	@$(EMULATE_RP2040) --program $< --trace $(pico_FOLDER)/frames/wire --options 'panel=$(PANEL) $(OPTIONS)'
 	@$(PANEL_FRAMES) $(pico_FOLDER)/frames/wire $(PANEL) $(FIRMWARE)/models any $(pico_FOLDER)/frames/$(PANEL)
