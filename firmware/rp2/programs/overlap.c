@@ -11,6 +11,8 @@
 #include "../../player.h"
 
 #define FRAMES 8u
+#define TILE_ROWS 16u /* the last tile has nothing to overlap with, and each costs a window: with 8 or 27 rows frames take longer \
+                       */
 
 void frame_begins(void);
 void frame_ends(void);
@@ -61,7 +63,7 @@ static int send(void) {
 
 int main(void) {
     const scene_script_t *script = scene_find("bunny");
-    player_config_t config = {.display = &display, .method = TUILE_ZBUFFER};
+    player_config_t config = {.display = &display, .method = TUILE_ZBUFFER, .tile_height = TILE_ROWS};
 
     check(tuile_display_init(&display, board_display()));
     config.model = board_model(script, &config.model_bytes);
@@ -82,7 +84,7 @@ int main(void) {
         check(error);
         tell("wire", script, frame);
         frame_begins();
-        error = player_frame(&player, frame);
+        error = tuile_stream_frame(player.renderer, &player.stage.scene, &display, NULL);
         frame_ends();
         check(error);
         tell("both", script, frame);
