@@ -1,6 +1,7 @@
 /* The compact renderer: the pictures of the full one, dot by dot. */
 #include "../firmware/scenes.h"
 #include "../raster/compact/compact.h"
+#include "../raster/geometry/model.h"
 #include "support/built.h"
 #include "support/check.h"
 #include "support/frame.h"
@@ -26,18 +27,26 @@ static void crossed_bars(mesh_t *mesh) {
     }
 }
 
+/* Sheets that cross themselves: of two lobes the larger one tells which side is the front, but from near the smaller one may look
+ * larger. */
+static void bow_ties(mesh_t *mesh) {
+    model_start(mesh);
+    for (unsigned i = 0; i < 6; i++) {
+        const double z = 0.3 * i - 0.7, way = i % 2 ? -1 : 1, lean = 0.17 * i;
+        const uint32_t corners[4] = {model_position(mesh, -1 * way, -0.9, z), model_position(mesh, 1 * way, 0.7, z + lean),
+                                     model_position(mesh, 1 * way, -0.7, z + lean), model_position(mesh, -1 * way, 0.9, z)};
+        model_face(mesh, corners, 4, model_material(mesh, 60 + 30 * i, 200 - 20 * i, 120));
+    }
+}
+
 static const struct {
     const char *name;
     void (*make)(mesh_t *mesh);
     double size; /* from the middle to the outside */
-} models[] = {{"cube", model_cube, 1},
-              {"torus", torus, 1.2},
-              {"triangles", torus_of_triangles, 1.2},
-              {"sphere", sphere, 1},
-              {"staircase", staircase, 3},
-              {"room", model_room, 4},
-              {"octahedron", model_octahedron, 1},
-              {"crossed bars", crossed_bars, 1}};
+} models[] = {
+    {"cube", model_cube, 1},     {"torus", torus, 1.2},   {"triangles", torus_of_triangles, 1.2}, {"sphere", sphere, 1},
+    {"staircase", staircase, 3}, {"room", model_room, 4}, {"octahedron", model_octahedron, 1},    {"crossed bars", crossed_bars, 1},
+    {"bow ties", bow_ties, 1}};
 
 static const uint8_t methods[] = {TUILE_ZBUFFER, TUILE_TREE};
 static const uint16_t tiles[][2] = {{0, 0}, {0, 8}, {32, 8}, {16, 16}, {48, 24}, {8, 8}};
@@ -178,6 +187,7 @@ static void what_is_not_drawn_is_refused(void **state) {
     tuile_instance_t instances[2] = {{.pose = {.scale = TUILE_SCALE_ONE}}};
     tuile_light_t lights[3] = {{.direction = {0, 0, -16384}, .intensity = 100}};
     tuile_scene_t scene = {.instances = instances, .instance_count = 1, .lights = lights, .light_count = 1};
+    const tuile_material_t material = {.colour = {9, 9, 9}};
     mesh_t mesh;
     (void)state;
     model_cube(&mesh);
@@ -200,6 +210,10 @@ static void what_is_not_drawn_is_refused(void **state) {
     compiled.bytes[0] ^= 1;
     assert_int_equal(OPEN(compiled.bytes), TUILE_ERROR_MODEL);
     compiled.bytes[0] ^= 1;
+    uint8_t *flags = compiled.bytes + (compiled.model.materials - compiled.bytes) + MATERIAL_AT_FLAGS;
+    *flags |= TUILE_MATERIAL_TWO_SIDED;
+    assert_int_equal(OPEN(compiled.bytes), TUILE_ERROR_EFFECTS);
+    *flags &= (uint8_t)~TUILE_MATERIAL_TWO_SIDED;
 
     for (unsigned i = 0; i < 3; i++) {
         instances[0].pose.rotation[i][i] = scene.camera.rotation[i][i] = TUILE_ONE_Q30;
@@ -219,7 +233,19 @@ static void what_is_not_drawn_is_refused(void **state) {
     assert_int_equal(VIEW(), TUILE_ERROR_EFFECTS);
     lights[0].kind = TUILE_LIGHT_DIRECTIONAL, scene.light_count = 3;
     assert_int_equal(VIEW(), TUILE_ERROR_EFFECTS);
-    scene.light_count = 1, scene.instance_count = 2;
+    scene.light_count = 1, scene.line_count = 1;
+    assert_int_equal(VIEW(), TUILE_ERROR_EFFECTS);
+    scene.line_count = 0, scene.sprite_count = 1;
+    assert_int_equal(VIEW(), TUILE_ERROR_EFFECTS);
+    scene.sprite_count = 0, scene.fog.kind = TUILE_FOG_LINEAR;
+    assert_int_equal(VIEW(), TUILE_ERROR_EFFECTS);
+    scene.fog.kind = TUILE_FOG_NONE, scene.ambient_colour[2] = 1;
+    assert_int_equal(VIEW(), TUILE_ERROR_EFFECTS);
+    scene.ambient_colour[2] = 0, instances[0].morph = 1;
+    assert_int_equal(VIEW(), TUILE_ERROR_EFFECTS);
+    instances[0].morph = 0, instances[0].materials = &material;
+    assert_int_equal(VIEW(), TUILE_ERROR_EFFECTS);
+    instances[0].materials = NULL, scene.instance_count = 2;
     assert_int_equal(VIEW(), TUILE_ERROR_EFFECTS);
     scene.instance_count = 1, scene.camera.near = 0;
     assert_int_equal(VIEW(), TUILE_ERROR_CAMERA);
