@@ -42,11 +42,12 @@ static bool stand_make(stand_t *s, random_source_t *random) {
         at[i] = anywhere(random, TUILE_Q16(2));
     }
     if (tuile_camera_look_at(&s->scene.camera, eye, at, up)) { return false; }
-    s->scene.camera.focal_x = random_between(random, TUILE_Q16(20), TUILE_Q16(900));
-    s->scene.camera.focal_y = random_between(random, TUILE_Q16(20), TUILE_Q16(900));
+    const q16_16_t focal = random_one_in(random, 4) ? TUILE_Q16(30000) : TUILE_Q16(900); /* a telescope now and then */
+    s->scene.camera.focal_x = random_between(random, TUILE_Q16(20), focal);
+    s->scene.camera.focal_y = random_between(random, TUILE_Q16(20), focal);
     s->scene.camera.centre_x = TUILE_Q16(WIDTH / 2), s->scene.camera.centre_y = TUILE_Q16(HEIGHT / 2);
-    s->scene.camera.near = random_between(random, 1 << 8, 1 << 15);
-    s->scene.camera.far = s->scene.camera.near + random_between(random, 1 << 14, TUILE_Q16(12));
+    s->scene.camera.near = 1 << random_between(random, 4, 15);
+    s->scene.camera.far = s->scene.camera.near + (1 << random_between(random, 14, 23));
     if (transform_make(&s->transform, &s->scene, &s->instance, WIDTH, HEIGHT)) { return false; }
     const transform_region_t region = {0, 0, WIDTH, HEIGHT};
     transform_region(&s->transform, &region);
@@ -74,6 +75,12 @@ static void vertices_come_to_the_same_places(void **state) {
         stand_t s;
         if (!stand_make(&s, &random)) { continue; }
         for (unsigned i = 0; i < VERTICES; i++) {
+            const int16_t *q = s.positions + 3 * (size_t)i;
+            const int8_t *f = s.fractions + 3 * (size_t)i;
+            const compact_place_t place = compact_place(&s.compact.view, q, f);
+            assert_int_equal(place.x, transform_finer(&s.transform.x, q, f));
+            assert_int_equal(place.y, transform_finer(&s.transform.y, q, f));
+            assert_int_equal(place.w, transform_finer(&s.transform.w, q, f));
             assert_int_equal(s.points[i].x == COMPACT_OUTSIDE, s.vertices[i].x == VERTEX_OUTSIDE);
             if (s.vertices[i].x == VERTEX_OUTSIDE) {
                 outside++;
@@ -100,6 +107,7 @@ static void places_are_projected_alike(void **state) {
         for (unsigned i = 0; i < 40; i++) {
             compact_place_t place = {random_any_size(&random, 46), random_any_size(&random, 46),
                                      i < 4 ? ends[i] : low + (int64_t)(random_bits(&random) % (uint64_t)(high - low))};
+            if (i >= 30) { place.w = (int64_t)1 << (46 - (i - 30)); } /* whose reciprocals are powers of two as well */
             for (unsigned clamp = 0; clamp < 2; clamp++) {
                 vertex_t vertex = {0};
                 tuile_compact_point_t point;
@@ -237,6 +245,11 @@ static void faces_have_the_same_depth_at_every_pixel(void **state) {
                                         : py > 15000 ? 15000
                                                      : py),
                               (uint32_t)(depth > 16775000 ? 16775000 : depth) << 8};
+        }
+        if (count == 4 && random_one_in(&random, 4)) { /* a parallelogram: two triangles of one size, not in one plane */
+            v[3].x = (int16_t)(v[0].x + v[2].x - v[1].x);
+            v[3].y = (int16_t)(v[0].y + v[2].y - v[1].y);
+            if (v[3].x < -15000 || v[3].x > 15000 || v[3].y < -15000 || v[3].y > 15000) { continue; }
         }
         const int64_t area = area_of(v, count);
         if (count == 3 ? area <= 0 : area < 0) { continue; }

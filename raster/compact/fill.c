@@ -12,8 +12,8 @@
 #define STEEP (INT64_C(1) << 33)       /* as fill/polygon.c */
 
 /* A pixel is white iff luma >= ceil((128 - (2 b + 1)) * 65535 / 128) (resolve/put.h), that is 127 - 2 b <= floor(128 luma / 65535).
- */
-uint8_t compact_level(uint16_t luma) { return (uint8_t)((128u - (uint32_t)luma * 128u / 65535u) / 2u); }
+ * The quotient is luma >> 9 but for luma = 65535, whose level is 0 either way. */
+uint8_t compact_level(uint16_t luma) { return (uint8_t)((128u - (luma >> 9)) / 2u); }
 
 /* ---- depth: z + x dx + y dy at the centre of pixel (x, y), Q.16 with the rounding half ---- */
 
