@@ -2,7 +2,7 @@
  * mesh begin and end within one row of tiles, and for one that does not it is cheaper to be set up again below than to be carried
  * there. The numbers are those of fill/triangle.c, to the bit.
  *
- * Small: all sides short (fill/edge.h), and within the tile's columns. Columns are counted from that of the top corner, so that
+ * Small: all sides short (fill/edge.h). Columns are counted from that of the top corner, so that
  * |column| <= 32. Numbers that fit in 32 bits are held as whole registers: where those have 64 bits nothing is widened again and
  * again.
  */
@@ -35,6 +35,7 @@ typedef struct small_tile {
     small_int_t stride;      /* pixels */
     small_int_t origin;      /* of pixel (0, 0) of the window, counted from `depth` */
     small_int_t top, bottom; /* rows of the window */
+    small_int_t first, end;  /* columns of the window */
     int32_t left, width;     /* corners whose x - left is in 0 ... width - 1 touch no column beside the tile; 1/16 pixel */
 } small_tile_t;
 
@@ -45,6 +46,8 @@ TUILE_INLINE small_tile_t small_tile(const raster_tile_t *tile) {
                           .origin = -((small_int_t)tile->top * tile->stride_px + tile->left),
                           .top = tile->top,
                           .bottom = tile->bottom,
+                          .first = tile->left,
+                          .end = tile->right,
                           .left = 16 * tile->left - 7,
                           .width = 16 * (tile->right - tile->left + 1)};
 }
@@ -60,9 +63,12 @@ TUILE_INLINE bool small_in_columns(const small_tile_t *tile, small_int_t x) {
     return (uint32_t)(x - tile->left) < (uint32_t)tile->width;
 }
 
-TUILE_INLINE bool small_fits(const small_corners_t *c, const small_tile_t *tile) {
-    return small_within(c->x1) && small_within(c->x2) && small_within(c->x1 - c->x2) && (c->y1 | c->y2) < SHORT_SIDE &&
-           small_in_columns(tile, c->x0) && small_in_columns(tile, c->x0 + c->x1) && small_in_columns(tile, c->x0 + c->x2);
+TUILE_INLINE bool small_short(const small_corners_t *c) {
+    return small_within(c->x1) && small_within(c->x2) && small_within(c->x1 - c->x2) && (c->y1 | c->y2) < SHORT_SIDE;
+}
+
+TUILE_INLINE bool small_inside(const small_corners_t *c, const small_tile_t *tile) {
+    return small_in_columns(tile, c->x0) && small_in_columns(tile, c->x0 + c->x1) && small_in_columns(tile, c->x0 + c->x2);
 }
 
 /* What is affine over the triangle, at the centre of a pixel: to_x right and to_y below the top corner, sixteenths of a pixel, 1
@@ -108,10 +114,11 @@ TUILE_INLINE small_int_t small_start(small_int_t x) { return x * (1 << 16) + ((1
 
 /* The rows of a triangle that are being filled. */
 typedef struct small_rows {
-    small_side_t a, b;   /* left and right, in columns */
-    uint64_t at, dx, dy; /* depth and light in the column, and per pixel right and down: fill/triangle.c */
-    uint64_t map;        /* of the texture, in the column */
-    uint16_t *depth;     /* of the column */
+    small_side_t a, b;       /* left and right, in columns */
+    uint64_t at, dx, dy;     /* depth and light in the column, and per pixel right and down: fill/triangle.c */
+    uint64_t map;            /* of the texture, in the column */
+    uint16_t *depth;         /* of the column */
+    small_int_t left, right; /* the tile's columns */
 } small_rows_t;
 
 TUILE_INLINE void small_span_flat(uint16_t *depth, const uint16_t *end, ptrdiff_t colour, uint32_t shade, uint32_t dx,
@@ -176,11 +183,16 @@ TUILE_INLINE small_int_t small_step(small_side_t side) { /* may wrap behind the 
     return (small_int_t)((uintptr_t)side.x + (uintptr_t)side.slope);
 }
 
-/* count > 0. */
+/* count > 0. clamp: the triangle may touch columns beside the tile, whose own are left ... right - 1; a constant. */
 TUILE_INLINE void small_rows_fill(small_rows_t *r, const small_tile_t *tile, small_int_t count, small_kind_t kind,
-                                  const small_paint_t *paint) {
+                                  const small_paint_t *paint, bool clamp) {
+    const small_int_t left = r->left, right = r->right;
     do {
-        const small_int_t from = r->a.x >> 20, to = r->b.x >> 20;
+        small_int_t from = r->a.x >> 20, to = r->b.x >> 20;
+        if (clamp) {
+            from = from > left ? from : left;
+            to = to < right ? to : right;
+        }
         if (from < to) { small_span(r, tile, from, to, kind, paint); }
         r->a.x = small_step(r->a);
         r->b.x = small_step(r->b);
@@ -211,12 +223,16 @@ typedef struct small_face {
     small_corners_t corners;
     small_int_t row, column; /* the pixel that all is counted from */
     small_int_t to_x, to_y;  /* its centre from the top corner, sixteenths of a pixel */
+    bool inside;             /* it touches no column beside the tile */
 } small_face_t;
 
+/* What is known of a triangle beforehand. */
+enum { SMALL_IS_SHORT = 1, SMALL_IS_INSIDE = 2 };
+
 /* v0 is a topmost corner, v0 v1 v2 is counter-clockwise as seen, with an area above 0, and it spans some row of the tile. False: it
- * is not small. known: it is. */
+ * is not small. known: SMALL_IS_... */
 TUILE_INLINE bool small_open(small_face_t *face, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
-                             const small_tile_t *tile, bool known) {
+                             const small_tile_t *tile, unsigned known) {
     const small_corners_t c = {v0->x, v0->y, v1->x - v0->x, v1->y - v0->y, v2->x - v0->x, v2->y - v0->y};
     const small_int_t first = (c.y0 + 7) >> 4;
     face->corners = c;
@@ -224,7 +240,17 @@ TUILE_INLINE bool small_open(small_face_t *face, const vertex_t *v0, const verte
     face->column = (c.x0 + 7) >> 4;
     face->to_x = 16 * face->column + 8 - c.x0;
     face->to_y = 16 * face->row + 8 - c.y0;
-    return known || small_fits(&c, tile);
+    face->inside = known & SMALL_IS_INSIDE || small_inside(&c, tile);
+    return known & SMALL_IS_SHORT || small_short(&c);
+}
+
+TUILE_INLINE void small_part(small_rows_t *r, const small_tile_t *tile, small_int_t count, small_kind_t kind,
+                             const small_paint_t *paint, bool inside) {
+    if (TUILE_LIKELY(inside)) {
+        small_rows_fill(r, tile, count, kind, paint, false);
+    } else {
+        small_rows_fill(r, tile, count, kind, paint, true);
+    }
 }
 
 /* Draws it from the tile's first row to its last. smooth: light is interpolated; else it is `light`. True: it reaches below. */
@@ -245,6 +271,8 @@ TUILE_INLINE bool small_fill(const small_face_t *face, const vertex_t *v0, const
         r.at += (uint64_t)light << 24;
     }
     if (kind == SMALL_TEXTURED) { r.map = paint->map.v; }
+    r.left = tile->first - face->column;
+    r.right = tile->end - face->column;
     r.depth = tile->depth + (tile->origin + row * tile->stride + face->column);
 
     small_bend_t bend = {c.x1, c.y1, c.x2, c.y2, true};
@@ -257,13 +285,13 @@ TUILE_INLINE bool small_fill(const small_face_t *face, const vertex_t *v0, const
     if (row < row_mid) {
         from = row_mid < end ? row_mid : end;
         small_turn(&r, bend.left, small_side(start, bend.mid_x, bend.mid_y, to_y));
-        small_rows_fill(&r, tile, from - row, kind, paint);
+        small_part(&r, tile, from - row, kind, paint, face->inside);
     }
     if (from < end) {
         small_turn(&r, bend.left,
                    small_side(start + bend.mid_x * (1 << 16), bend.low_x - bend.mid_x, bend.low_y - bend.mid_y,
                               16 * from + 8 - c.y0 - bend.mid_y));
-        small_rows_fill(&r, tile, end - from, kind, paint);
+        small_part(&r, tile, end - from, kind, paint, face->inside);
     }
     return row_end > tile->bottom;
 }

@@ -222,6 +222,7 @@ typedef struct tuile {
     textured_material_t textured_last;
     const int16_t *textured_texcoords;
     bool numbered; /* some face of the tile was drawn as a number */
+    bool columned; /* small triangles are in lists by column (visibility/columns.h) */
     bool small;    /* all triangles of the pass have short sides (fill/edge.h) and touch no column outside of its region */
     raster_tile_t tile;
     span_kind_t span_kind;

@@ -10,6 +10,7 @@
 #include "frame.h"
 
 #include "../layer/layer.h"
+#include "../visibility/columns.h"
 
 /* column: of a narrow pass. */
 static void pass_set(tuile_t *t, uint32_t first, uint32_t end, uint32_t column, bool narrow) {
@@ -39,10 +40,23 @@ void pass_measure(tuile_t *t, size_t carried_bytes) {
     if (enough > t->stats.peak_bytes) { t->stats.peak_bytes = enough; }
 }
 
+/* Small triangles in lists by column, where the method draws them so and there is room for the lists. */
+static size_t columns_bytes(const tuile_t *t) {
+    const size_t bytes = ((t->tile_columns + 3u) * sizeof(uint16_t) + 7u) & ~(size_t)7u;
+    size_t room;
+    (void)frame_room(t, &room);
+    const bool wanted = t->tile_columns > 1 && !t->narrow && t->config.method == TUILE_ZBUFFER &&
+                        t->config.tie == TUILE_TIE_FIRST && t->span_kind != SPAN_IDS && !frame_layers(t) &&
+                        (!t->textured || t->pixel_kind == PIXEL_RGB565_BE);
+    return wanted && room >= bytes ? bytes : 0;
+}
+
 static void rows_restart(tuile_t *t, uint32_t row) {
+    const size_t lists = columns_bytes(t);
     t->row = (uint16_t)row;
     t->row_ready = false;
-    t->states = (uint8_t *)(t->vertices + t->vertex_count);
+    t->columned = lists != 0;
+    t->states = (uint8_t *)(t->vertices + t->vertex_count) + lists;
     t->stream = t->stream_end = t->states;
     t->uncarried = RECORD_NONE;
 }
@@ -169,7 +183,7 @@ int pass_draw(tuile_t *t, uint32_t row, uint32_t column) {
             if (error) { return error; }
         }
         if (t->immediate) { return draw_immediate(t, row, column); }
-        if (row < t->row) {
+        if (row < t->row || (row == t->row && t->row_ready && t->columned && column < *columns_next(t))) {
             bin_again(t, (uint16_t)row);
             rows_restart(t, row);
         }
@@ -177,7 +191,7 @@ int pass_draw(tuile_t *t, uint32_t row, uint32_t column) {
         const int result = t->method->draw_tile(t, (uint16_t)row);
         if (result <= 0) {
             if (t->config.trace) { trace_tile(t); }
-            pass_measure(t, (size_t)(t->stream_end - t->stream));
+            pass_measure(t, (size_t)(t->stream_end - t->stream) + (t->columned ? columns_bytes(t) : 0));
             t->stats.tiles_narrow += t->narrow;
             if (result == 0 && frame_deferred(t)) { shade_tile(t); }
             return result == 0 && frame_layers(t) ? layer_tile(t) : result;

@@ -16,6 +16,7 @@
 #include "../fill/small.h"
 #include "../frame/textured.h"
 #include "../memory.h"
+#include "columns.h"
 
 /* How a method draws its rows: `tested` below, a constant wherever these functions are called. */
 enum {
@@ -155,10 +156,11 @@ static inline uint16_t list_merge(const tuile_t *t, uint16_t a, uint16_t b) {
 
 /* Walks the faces of the current row in order: those of `list` and those of the old stream. */
 typedef struct walk {
-    uint16_t list;            /* records to be set up */
-    uint8_t *old, *old_end;   /* states carried from above */
-    uint8_t *out;             /* where the new stream grows */
-    uint16_t left, *left_end; /* records that go on without a state */
+    uint16_t list;          /* records to be set up */
+    uint8_t *old, *old_end; /* states carried from above */
+    uint8_t *out;           /* where the new stream grows */
+    list_end_t left;        /* records that go on without a state */
+    list_end_t right;       /* columns.h: those that the next column takes over */
 } walk_t;
 
 static inline void walk_begin(tuile_t *t, walk_t *walk) {
@@ -171,22 +173,13 @@ static inline void walk_begin(tuile_t *t, walk_t *walk) {
     walk->old_end = limit;
     if (size) { memmove(walk->old, t->stream, size); }
     walk->out = t->states;
-    walk->left = RECORD_NONE;
-    walk->left_end = NULL;
+    walk->left = walk->right = (list_end_t){RECORD_NONE, NULL};
 }
 
 static inline void walk_end(tuile_t *t, walk_t *walk) {
     t->stream = t->states;
     t->stream_end = walk->out;
-    t->uncarried = walk->left;
-}
-
-/* Appends a record to the list of those that go on without a state. */
-TUILE_INLINE void walk_leave(const tuile_t *t, walk_t *walk, uint32_t number) {
-    record_t *record = frame_record(t, number);
-    record->next = RECORD_NONE;
-    *(walk->left_end ? walk->left_end : &walk->left) = (uint16_t)(number + 1u);
-    walk->left_end = &record->next;
+    t->uncarried = walk->left.first;
 }
 
 /* Appends a state to the new stream; a record that finds no room there goes into the list of those without one. */
@@ -197,7 +190,7 @@ static inline void walk_keep(tuile_t *t, walk_t *walk, const state_t *state) {
         walk->out += size;
         return;
     }
-    walk_leave(t, walk, state->head.record);
+    list_append(t, &walk->left, state->head.record);
     t->stats.faces_resumed++;
 }
 
@@ -236,28 +229,31 @@ TUILE_INLINE bool small_prepare(tuile_t *t, const record_t *record, uint32_t num
     return true;
 }
 
-/* Draws small triangles without a state, up to the next face that is not one, or that is carried. */
-TUILE_INLINE void walk_smalls(tuile_t *t, walk_t *walk, small_kind_t kind) {
+/* Draws small triangles without a state, up to the next face that is not one, or to record `limit`. */
+TUILE_INLINE void smalls_draw(tuile_t *t, walk_t *walk, uint32_t limit, small_kind_t kind) {
     small_tile_t tile = small_tile(&t->tile);
     const uint8_t *const arena_end = t->arena_end;
     const vertex_t *const vertices = t->vertices;
     const uintptr_t record_bytes = kind == SMALL_GOURAUD ? sizeof(record_t) : t->record_bytes;
-    const bool small = t->small, smooth = kind == SMALL_GOURAUD || (kind == SMALL_TEXTURED && t->config.shade == TUILE_GOURAUD);
-    const uintptr_t carried = walk->old == walk->old_end ? UINTPTR_MAX : ((const state_t *)(const void *)walk->old)->head.record;
+    const unsigned known = t->tile_columns > 1 ? SMALL_IS_SHORT
+                           : t->small          ? SMALL_IS_SHORT | SMALL_IS_INSIDE
+                                               : 0; /* columns.h has none but those */
+    const bool smooth = kind == SMALL_GOURAUD || (kind == SMALL_TEXTURED && t->config.shade == TUILE_GOURAUD);
     small_paint_t paint = {0};
+    const uint32_t column = (uint32_t)t->tile.left / t->config.tile_width;
     uintptr_t list = walk->list;
     uint32_t count = 0;
     int32_t material = -1;
     if (kind == SMALL_TEXTURED) {
         tile.colour = (t->working ? (uint16_t *)t->working : (uint16_t *)(void *)t->colours[t->next_buffer]) - tile.depth;
     }
-    while (list - 1u < carried) { /* RECORD_NONE is not */
+    while ((uint32_t)list - 1u < limit) { /* RECORD_NONE is not */
         const record_t *record = (const record_t *)(const void *)(arena_end - list * record_bytes);
         if (TUILE_UNLIKELY(!frame_record_is_triangle(record))) { break; }
         const uint32_t number = (uint32_t)list - 1u;
         const vertex_t *v0 = vertices + record->v0, *v1 = v0 + record->d1, *v2 = v0 + record->d2;
         small_face_t face;
-        if (TUILE_UNLIKELY(!small_open(&face, v0, v1, v2, &tile, small))) { break; }
+        if (TUILE_UNLIKELY(!small_open(&face, v0, v1, v2, &tile, known))) { break; }
         if (kind == SMALL_GOURAUD) {
             if (TUILE_UNLIKELY(record->material != material)) {
                 material = record->material;
@@ -269,37 +265,50 @@ TUILE_INLINE void walk_smalls(tuile_t *t, walk_t *walk, small_kind_t kind) {
         const bool reaches = small_fill(&face, v0, v1, v2, &tile, kind, smooth, record->light, &paint);
         list = record->next;
         count++;
-        if (reaches) { walk_leave(t, walk, number); }
+        if (t->tile_columns > 1 && !face.inside) {
+            columns_hand_on(t, number, column, (int32_t)tile.bottom, &walk->right, &walk->left);
+        } else if (reaches) {
+            list_append(t, &walk->left, number);
+        }
     }
     walk->list = (uint16_t)list;
     t->stats.faces_setup += count;
     if (kind == SMALL_TEXTURED && count) { t->textured_any = true; }
 }
 
+/* Whether the method draws small triangles so. */
+TUILE_INLINE bool smalls_wanted(const tuile_t *t, unsigned tested) {
+    return tested == ROWS_TEXTURED ? t->pixel_kind == PIXEL_RGB565_BE
+                                   : tested == ROWS_TESTED && t->config.tie == TUILE_TIE_FIRST && t->span_kind != SPAN_IDS;
+}
+
+/* smalls_draw of the kinds of zbuffer.c, and of zbuffer_textured.c: one copy of each serves strips and columns. */
+void smalls_plain(tuile_t *t, walk_t *walk, uint32_t limit);
+void smalls_textured(tuile_t *t, walk_t *walk, uint32_t limit);
+
+TUILE_INLINE void walk_smalls(tuile_t *t, walk_t *walk, uint32_t limit, unsigned tested) {
+    if (tested == ROWS_TEXTURED) {
+        smalls_textured(t, walk, limit);
+    } else {
+        smalls_plain(t, walk, limit);
+    }
+}
+
+static inline uint32_t stream_next(const uint8_t *at, const uint8_t *end) {
+    return at == end ? UINT32_MAX : ((const state_t *)(const void *)at)->head.record;
+}
+
 /* All faces of the row through the only column. */
 TUILE_INLINE void row_draw(tuile_t *t, int32_t top, unsigned tested) {
+    const bool smalls = tested && smalls_wanted(t, tested);
     walk_t walk;
     state_t local, *state;
     const record_t *record;
     walk_begin(t, &walk);
-    if (tested == ROWS_TEXTURED ? t->pixel_kind == PIXEL_RGB565_BE
-                                : tested == ROWS_TESTED && t->config.tie == TUILE_TIE_FIRST && t->span_kind != SPAN_IDS) {
-        for (;;) {
-            if (tested == ROWS_TEXTURED) {
-                walk_smalls(t, &walk, SMALL_TEXTURED);
-            } else if (t->span_kind == SPAN_GOURAUD) {
-                walk_smalls(t, &walk, SMALL_GOURAUD);
-            } else {
-                walk_smalls(t, &walk, SMALL_FLAT);
-            }
-            state = walk_next(t, &walk, &local, top, &record, tested);
-            if (state == NULL) { break; }
-            if (state_fill(t, state, record, tested)) { walk_keep(t, &walk, state); }
-        }
-        walk_end(t, &walk);
-        return;
-    }
-    while ((state = walk_next(t, &walk, &local, top, &record, tested)) != NULL) {
+    for (;;) {
+        if (smalls) { walk_smalls(t, &walk, stream_next(walk.old, walk.old_end), tested); }
+        state = walk_next(t, &walk, &local, top, &record, tested);
+        if (state == NULL) { break; }
         if (state_fill(t, state, record, tested)) { walk_keep(t, &walk, state); }
     }
     walk_end(t, &walk);
@@ -317,43 +326,97 @@ TUILE_INLINE void row_pass_by(tuile_t *t, int32_t top, int32_t bottom, unsigned 
     walk_end(t, &walk);
 }
 
-/* All faces of the row into the stream. */
+/* All faces of the row into the stream; small triangles into the columns' lists, where there are such. */
 TUILE_INLINE void row_gather(tuile_t *t, int32_t top, unsigned tested) {
     walk_t walk;
     state_t local, *state;
     const record_t *record;
     walk_begin(t, &walk);
-    while ((state = walk_next(t, &walk, &local, top, &record, tested)) != NULL) {
+    if (tested && t->columned) { columns_begin(t); }
+    for (;;) {
+        while (tested && t->columned && walk.list - 1u < stream_next(walk.old, walk.old_end)) {
+            const uint32_t number = walk.list - 1u;
+            const uint16_t next = frame_record(t, number)->next;
+            if (!columns_enter(t, number)) { break; }
+            walk.list = next;
+        }
+        state = walk_next(t, &walk, &local, top, &record, tested);
+        if (state == NULL) { break; }
         walk_keep(t, &walk, state);
     }
     walk_end(t, &walk);
 }
 
-/* One of several columns. The faces without a state are set up again for each. */
+/* Draws a face that has no state. */
+TUILE_INLINE void column_uncarried(tuile_t *t, uint32_t number, int32_t top, unsigned tested) {
+    state_t local;
+    const record_t *record = frame_record(t, number);
+    if (state_start(t, &local, record, number, top, tested) && state_in_columns(t, &local)) {
+        (void)state_fill(t, &local, record, tested);
+    }
+}
+
+/* Draws from a copy of a state. */
+TUILE_INLINE void column_carried(tuile_t *t, const state_t *carried, unsigned tested) {
+    state_t local;
+    if (!state_in_columns(t, carried)) { return; }
+    const record_t *record = frame_record(t, carried->head.record);
+    if (tested != ROWS_TEXTURED && TUILE_LIKELY(frame_record_is_triangle(record) && carried->triangle.is_short)) {
+        memcpy(&local, carried, triangle_state_bytes(true));
+    } else {
+        memcpy(&local, carried, carried->head.size_bytes);
+    }
+    (void)state_fill(t, &local, record, tested);
+}
+
+/* The small triangles of a column, undrawn. */
+static inline void column_pass_by(tuile_t *t, uint32_t column, int32_t bottom) {
+    list_end_t right = {RECORD_NONE, NULL}, below = {RECORD_NONE, NULL};
+    for (uint16_t list = list_merge(t, columns_take(t, column), *columns_right(t)); list != RECORD_NONE;) {
+        const uint32_t number = list - 1u;
+        list = frame_record(t, number)->next;
+        columns_hand_on(t, number, column, bottom, &right, &below);
+    }
+    *columns_right(t) = right.first;
+    *columns_below(t) = list_merge(t, *columns_below(t), below.first);
+}
+
+/* One of several columns, those before it having been drawn or passed by. The faces without a state are set up again for each. */
 TUILE_INLINE void column_draw(tuile_t *t, int32_t top, unsigned tested) {
+    const uint32_t column = (uint32_t)t->tile.left / t->config.tile_width;
     const uint8_t *at = t->stream;
     uint16_t list = t->uncarried;
-    state_t local;
-    while (at < t->stream_end || list != RECORD_NONE) {
-        const state_t *carried = (const state_t *)(const void *)at;
-        if (list != RECORD_NONE && (at >= t->stream_end || list - 1u < carried->head.record)) {
-            const uint32_t number = list - 1u;
-            const record_t *record = frame_record(t, number);
-            list = record->next;
-            if (state_start(t, &local, record, number, top, tested) && state_in_columns(t, &local)) {
-                (void)state_fill(t, &local, record, tested);
-            }
-            continue;
+    walk_t walk = {.list = RECORD_NONE};
+    const bool columned = tested && t->columned;
+    if (columned) {
+        for (; *columns_next(t) < column; ++*columns_next(t)) {
+            column_pass_by(t, *columns_next(t), t->tile.bottom);
         }
-        at += carried->head.size_bytes;
-        if (!state_in_columns(t, carried)) { continue; }
-        const record_t *record = frame_record(t, carried->head.record);
-        if (tested != ROWS_TEXTURED && TUILE_LIKELY(frame_record_is_triangle(record) && carried->triangle.is_short)) {
-            memcpy(&local, carried, triangle_state_bytes(true));
+        *columns_next(t) = (uint16_t)(column + 1u);
+        walk.list = list_merge(t, columns_take(t, column), *columns_right(t));
+    }
+    for (;;) {
+        const uint32_t carried = stream_next(at, t->stream_end), uncarried = list - (uint32_t)1, /* NONE: UINT32_MAX */
+            limit = carried < uncarried ? carried : uncarried;
+        if (columned) { walk_smalls(t, &walk, limit, tested); }
+        if (walk.list - (uint32_t)1 < limit) { /* it has a number, or no texture that is drawn at once */
+            const uint32_t number = walk.list - (uint32_t)1;
+            walk.list = frame_record(t, number)->next;
+            column_uncarried(t, number, top, tested);
+            columns_hand_on(t, number, column, t->tile.bottom, &walk.right, &walk.left);
+        } else if (limit == UINT32_MAX) {
+            break;
+        } else if (limit == carried) {
+            column_carried(t, (const state_t *)(const void *)at, tested);
+            at += ((const state_t *)(const void *)at)->head.size_bytes;
         } else {
-            memcpy(&local, carried, carried->head.size_bytes);
+            column_uncarried(t, uncarried, top, tested);
+            list = frame_record(t, uncarried)->next;
         }
-        (void)state_fill(t, &local, record, tested);
+    }
+    if (columned) {
+        *columns_right(t) = walk.right.first;
+        *columns_below(t) = list_merge(t, *columns_below(t), walk.left.first);
     }
 }
 
@@ -385,6 +448,11 @@ TUILE_INLINE void row_advance(tuile_t *t, int32_t bottom, unsigned tested) {
     }
     *end = RECORD_NONE;
     t->uncarried = kept;
+    if (!tested || !t->columned) { return; }
+    for (uint32_t column = *columns_next(t); column < t->tile_columns; column++) {
+        column_pass_by(t, column, bottom);
+    }
+    t->uncarried = list_merge(t, kept, *columns_below(t));
 }
 
 static inline int32_t row_top(const tuile_t *t, uint16_t row) { return row * t->config.tile_height; }

@@ -15,6 +15,14 @@ static void zbuffer_clear(tuile_t *t) {
     frame_fill_words(t->tile.depth, 0, (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top) * sizeof(uint16_t));
 }
 
+void smalls_plain(tuile_t *t, walk_t *walk, uint32_t limit) {
+    if (t->span_kind == SPAN_GOURAUD) {
+        smalls_draw(t, walk, limit, SMALL_GOURAUD);
+    } else {
+        smalls_draw(t, walk, limit, SMALL_FLAT);
+    }
+}
+
 static void zbuffer_draw_now(tuile_t *t, uint32_t number) {
     if (TUILE_HAS(TEXTURES) && t->textured) {
         zbuffer_textured_now(t, number);

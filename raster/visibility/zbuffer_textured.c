@@ -2,6 +2,8 @@
 
 #include "zbuffer_textured.h"
 
+void smalls_textured(tuile_t *t, walk_t *walk, uint32_t limit) { smalls_draw(t, walk, limit, SMALL_TEXTURED); }
+
 int zbuffer_textured_tile(tuile_t *t, uint16_t row) {
     rows_draw_tile(t, row, ROWS_TEXTURED);
     return FRAME_OK;
