@@ -141,15 +141,4 @@ static inline uint32_t fixed_sqrt64(uint64_t x) {
     return (uint32_t)root;
 }
 
-/* 2^62 / w for w in [2^31, 2^32), in (2^30, 2^31], within 8 of the exact value.
- * A 17-bit quotient from one 32-bit division, then one Newton step: with r0 = r (1 + d), |d| < 2^-15, the step leaves d^2,
- * that is 2^-30, besides the truncations of its own products. */
-TUILE_INLINE uint32_t fixed_reciprocal(uint32_t w) {
-    const uint32_t r0 = (0xffffffffu / (w >> 16)) << 14; /* <= 2^17 * 2^14 - 2^14, below 2^31 but for w = 2^31 */
-    const uint32_t product = FIXED_BY_HALVES ? (uint32_t)fixed_mul_high((int32_t)r0, w) : (uint32_t)(((uint64_t)w * r0) >> 32);
-    /* 2^30 (1 + d) */
-    const int32_t error = (int32_t)(0x40000000u - product);      /* |error| <= 2^30 * 2^-15 + 1 */
-    return r0 + (uint32_t)(((int32_t)(r0 >> 16) * error) >> 14); /* |product| <= 2^15 * (2^15 + 1) */
-}
-
 #endif

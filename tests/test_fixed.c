@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "../raster/divide.h"
 #include "../raster/fixed.h"
 #include "../raster/geometry/wide.h"
 #include "support/random.h"

@@ -9,6 +9,7 @@
 #ifndef TUILE_FILL_SMALL_H
 #define TUILE_FILL_SMALL_H
 
+#include "../divide.h"
 #include "textured.h"
 #include "triangle_set_up.h"
 
@@ -87,7 +88,7 @@ TUILE_INLINE triangle_gradients_t small_gradients(const small_corners_t *c, cons
                   light2 = (int32_t)(v2->depth_light & 0xff) - light0;
     triangle_gradients_t g = {{0, 0}, {0, 0}};
     if (TUILE_LIKELY(triangle_depths_near(z1, z2))) {
-        const int32_t reciprocal = INT32_MAX / area;
+        const int32_t reciprocal = divide_area(area);
         g.depth = gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12);
         if (gouraud) { g.light = gradient_small(light1, light2, x1, y1, x2, y2, reciprocal, 28); }
     } else {
@@ -103,7 +104,7 @@ typedef struct small_side {
 
 /* One side at the centre of a row `t` sixteenths below its upper end, which is `start` in columns (small_start): fill/edge.h. */
 TUILE_INLINE small_side_t small_side(small_int_t start, small_int_t dx, small_int_t dy, small_int_t t) {
-    const int32_t slope = fixed_floor_div((int32_t)dx * (1 << 20), (int32_t)dy);
+    const int32_t slope = divide_side((int32_t)dx, (int32_t)dy);
     return (small_side_t){start + ((t * slope) >> 4), slope};
 }
 

@@ -10,6 +10,8 @@
 
 #include "vertex.h"
 
+#include "../divide.h"
+
 static vertex_t outside(uint8_t light) { return (vertex_t){VERTEX_OUTSIDE, 0, light}; }
 
 TUILE_NOINLINE bool vertex_project(const transform_t *transform, int64_t x, int64_t y, int64_t w, uint8_t light, bool clamp,

@@ -1,5 +1,7 @@
 #include "../tune.h"
 
+#include "../divide.h"
+
 #include "fog.h"
 
 #include "../geometry/wide.h"

@@ -11,6 +11,8 @@
 
 #include "texture_affine.h"
 
+#include "../divide.h"
+
 #define S_BITS 18u
 #define Q_BITS 24u
 #define Q_FRACTION 18u

@@ -2,6 +2,7 @@
 #ifndef TUILE_SURFACE_TEXTURED_H
 #define TUILE_SURFACE_TEXTURED_H
 
+#include "../divide.h"
 #include "../fill/textured.h"
 #include "texture_affine.h"
 
@@ -51,7 +52,7 @@ TUILE_INLINE bool textured_map_at(textured_map_t *map, textured_material_t *m, c
         return false;
     }
     const int32_t area = x2 * y1 - x1 * y2;
-    const int32_t reciprocal = INT32_MAX / area;
+    const int32_t reciprocal = divide_area(area);                                           /* sides are short */
     const uint32_t texels = textured_size(s1 * t2 - s2 * t1) >> 7, pixels = (uint32_t)area; /* twice the areas, Q.9 and Q.8 */
     const textured_level_t *level = &m->level;
     if (TUILE_UNLIKELY(texels >> level->upper > pixels || (texels >> level->lower | level->always) <= pixels)) {

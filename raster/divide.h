@@ -1,0 +1,85 @@
+/* Quotients for machines that do not divide (Cortex-M0+), where a division takes the compiler's function 130 instructions: a table
+ * of reciprocals gives nearly all of it, and a remainder or two the rest. All are exact; tests/test_divide.c walks all arguments.
+ */
+#ifndef TUILE_DIVIDE_H
+#define TUILE_DIVIDE_H
+
+#include "fixed.h"
+
+#define DIVIDE_TABLE 512
+extern const uint32_t divide_table[DIVIDE_TABLE];
+
+/* floor(dx * 2^20 / dy), |dx| < 512, 0 < dy < 512.
+ * With R = floor(2^20 / dy) and p = 2^20 - R dy < dy it is dx R + floor(dx p / dy). |dx p| < 512 dy, so its product with the
+ * table's number is below 2^31, and the quotient from that 1 too small at most. */
+TUILE_INLINE int32_t divide_side_by_table(int32_t dx, int32_t dy) {
+    const uint32_t size = (uint32_t)(dx < 0 ? -dx : dx), down = (uint32_t)dy, inverse = divide_table[dy], whole = inverse >> 2;
+    const uint32_t part = size * ((1u << 20) - whole * down);
+    uint32_t quotient = (part * inverse) >> 22, rest = part - quotient * down;
+    if (rest >= down) { quotient++, rest -= down; }
+    quotient += size * whole;
+    return dx < 0 ? -(int32_t)(quotient + (rest != 0)) : (int32_t)quotient;
+}
+
+/* quotient and rest of n by d, when they are off by little. */
+TUILE_INLINE uint32_t divide_settle(uint32_t quotient, int32_t rest, int32_t d) {
+    for (; rest < 0; rest += d) {
+        quotient--;
+    }
+    for (; rest >= d; rest -= d) {
+        quotient++;
+    }
+    return quotient;
+}
+
+/* floor((2^31 - 1) / area), 0 < area < 2^18. Below 512 the table's number has 9 bits to go: the rest is below 512 area. Else it is
+ * that of the upper 9 bits of area, off by 2^-8 of itself, and two corrections by the rest leave a few units. */
+TUILE_INLINE int32_t divide_area_by_table(int32_t area) {
+    if (area < DIVIDE_TABLE) {
+        const uint32_t inverse = divide_table[area];
+        const int32_t rest = (int32_t)((uint32_t)INT32_MAX - (inverse << 9) * (uint32_t)area);
+        const uint32_t more = ((uint32_t)rest * inverse) >> 22;
+        return (int32_t)divide_settle((inverse << 9) + more, rest - (int32_t)more * area, area);
+    }
+    unsigned shift = 0;
+    while (area >> shift >= DIVIDE_TABLE) {
+        shift++;
+    }
+    const int32_t inverse = (int32_t)divide_table[area >> shift]; /* <= 2^14 */
+    int32_t quotient = (inverse << 9) >> shift;
+    int32_t rest = (int32_t)((uint32_t)INT32_MAX - (uint32_t)quotient * (uint32_t)area); /* |rest| < 2^24 */
+    int32_t more = ((rest >> 8) * inverse) >> (14 + shift);
+    quotient += more;
+    rest -= more * area; /* below 2^17 in size */
+    more = (rest * inverse) >> (22 + shift);
+    return (int32_t)divide_settle((uint32_t)(quotient + more), rest - more * area, area);
+}
+
+/* floor((2^32 - 1) / d), 2^15 <= d < 2^16. */
+TUILE_INLINE uint32_t divide_ones_by_table(uint32_t d) {
+    const int32_t inverse = (int32_t)divide_table[d >> 7]; /* 2^13 ... 2^14 */
+    const uint32_t quotient = (uint32_t)inverse << 3;
+    const int32_t rest = (int32_t)(UINT32_MAX - quotient * d), more = ((rest >> 8) * inverse) >> 21; /* |rest| < 2^25 */
+    return divide_settle(quotient + (uint32_t)more, rest - more * (int32_t)d, (int32_t)d);
+}
+
+TUILE_INLINE int32_t divide_side(int32_t dx, int32_t dy) {
+    return FIXED_BY_HALVES ? divide_side_by_table(dx, dy) : fixed_floor_div(dx * (1 << 20), dy);
+}
+
+TUILE_INLINE int32_t divide_area(int32_t area) { return FIXED_BY_HALVES ? divide_area_by_table(area) : INT32_MAX / area; }
+
+TUILE_INLINE uint32_t divide_ones(uint32_t d) { return FIXED_BY_HALVES ? divide_ones_by_table(d) : UINT32_MAX / d; }
+
+/* 2^62 / w for w in [2^31, 2^32), in (2^30, 2^31], within 8 of the exact value.
+ * A 17-bit quotient from one 32-bit division, then one Newton step: with r0 = r (1 + d), |d| < 2^-15, the step leaves d^2,
+ * that is 2^-30, besides the truncations of its own products. */
+TUILE_INLINE uint32_t fixed_reciprocal(uint32_t w) {
+    const uint32_t r0 = divide_ones(w >> 16) << 14; /* <= 2^17 * 2^14 - 2^14, below 2^31 but for w = 2^31 */
+    const uint32_t product = FIXED_BY_HALVES ? (uint32_t)fixed_mul_high((int32_t)r0, w) : (uint32_t)(((uint64_t)w * r0) >> 32);
+    /* 2^30 (1 + d) */
+    const int32_t error = (int32_t)(0x40000000u - product);      /* |error| <= 2^30 * 2^-15 + 1 */
+    return r0 + (uint32_t)(((int32_t)(r0 >> 16) * error) >> 14); /* |product| <= 2^15 * (2^15 + 1) */
+}
+
+#endif

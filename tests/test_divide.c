@@ -1,0 +1,46 @@
+/* Quotients by table (raster/divide.h): all arguments there are, against the machine's division. */
+#include "support/check.h"
+
+#include "../raster/divide.h"
+
+static void the_table_is_that_of_its_comment(void **state) {
+    (void)state;
+    assert_int_equal(divide_table[0], 0);
+    for (uint32_t i = 1; i < DIVIDE_TABLE; i++) {
+        assert_int_equal(divide_table[i], (1u << 22) / i);
+    }
+}
+
+static void slopes_of_short_sides_are_floored(void **state) {
+    (void)state;
+    for (int32_t dy = 1; dy < 512; dy += CHECK_SANITIZED ? 7 : 1) {
+        for (int32_t dx = -511; dx < 512; dx++) {
+            const int32_t slope = divide_side_by_table(dx, dy);
+            assert_true((int64_t)slope * dy <= (int64_t)dx * (1 << 20) && (int64_t)dx * (1 << 20) < ((int64_t)slope + 1) * dy);
+        }
+    }
+}
+
+static void reciprocals_of_areas_are_floored(void **state) {
+    (void)state;
+    for (int32_t area = 1; area < 1 << 18; area++) {
+        assert_int_equal(divide_area_by_table(area), INT32_MAX / area);
+    }
+}
+
+static void ones_are_divided_by_16_bits(void **state) {
+    (void)state;
+    for (uint32_t d = 1u << 15; d < 1u << 16; d++) {
+        assert_int_equal(divide_ones_by_table(d), UINT32_MAX / d);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_table_is_that_of_its_comment),
+        cmocka_unit_test(slopes_of_short_sides_are_floored),
+        cmocka_unit_test(reciprocals_of_areas_are_floored),
+        cmocka_unit_test(ones_are_divided_by_16_bits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
