@@ -31,6 +31,7 @@ TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned
     const vertex_t *const v = cluster->vertices;
     const uint32_t base = (uint32_t)(v - t->vertices), bytes = t->record_bytes, before = t->record_count;
     const uint8_t material_base = (uint8_t)t->material_base;
+    const vertex_sun_t sun = vertex_sun(&t->transform);
     const bool larger = bytes == sizeof(record_id_t);
     const int8_t *normal = cluster->face_normals;
     uint8_t *at = t->arena_end - (size_t)(before + 1) * bytes;
@@ -74,7 +75,7 @@ TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned
         record->d1 = (int8_t)(b - a);
         record->d2 = (int8_t)(c - a);
         record->material = (uint8_t)(face[3] + material_base);
-        record->light = flat ? flat_light(t, n, false) : 0;
+        record->light = flat ? vertex_sun_light(&t->transform, &sun, n) : 0;
         bucket_at(t, &bucket, (uint32_t)row);
         record->next = *bucket.list;
         *bucket.list = (uint16_t)++number;

@@ -436,6 +436,10 @@ uint32_t frame_material_base(const tuile_scene_t *scene, unsigned instance);
 /* The sample of a face in one colour: its material in the light of its record. */
 uint32_t frame_flat(const tuile_t *t, const record_t *record);
 
+/* The colours of a material by light, kept as they come; 0: none yet, or black, which is made again. NULL: there is no memory for
+ * them, or it is not what is drawn. */
+uint16_t *frame_flat_ramp(const tuile_t *t, uint32_t material);
+
 /* What is drawn of a face in one value: the id, the number for deferred shading, or the colour. */
 TUILE_INLINE uint32_t frame_value(const tuile_t *t, const record_t *record, uint32_t number) {
     if (t->span_kind == SPAN_IDS) { return frame_record_id(record); }

@@ -63,16 +63,20 @@ static TUILE_NOINLINE uint32_t flat_make(const tuile_t *t, const record_t *recor
     return pixel_lit((pixel_kind_t)t->pixel_kind, material_colour(t, record->material), record->light);
 }
 
-/* Colours are kept as they come; 0 in a ramp: none yet, or black, which is made again. */
-uint32_t frame_flat(const tuile_t *t, const record_t *record) {
-    const uint32_t material = record->material;
-    if (TUILE_UNLIKELY(t->ramp_count == 0 || t->span_kind != SPAN_FLAT)) { return flat_make(t, record); }
+uint16_t *frame_flat_ramp(const tuile_t *t, uint32_t material) {
+    if (t->ramp_count == 0 || t->span_kind != SPAN_FLAT) { return NULL; }
     const uint32_t slot = TUILE_LIKELY(material < t->ramp_count) ? material : material % t->ramp_count;
     uint16_t *ramp = t->ramps + slot * RAMP_FLAT_COLOURS;
     if (TUILE_UNLIKELY(t->ramp_tags[slot] != (int16_t)material)) {
         memset(ramp, 0, RAMP_FLAT_BYTES);
         t->ramp_tags[slot] = (int16_t)material;
     }
+    return ramp;
+}
+
+uint32_t frame_flat(const tuile_t *t, const record_t *record) {
+    uint16_t *ramp = frame_flat_ramp(t, record->material);
+    if (TUILE_UNLIKELY(ramp == NULL)) { return flat_make(t, record); }
     if (TUILE_UNLIKELY(ramp[record->light] == 0)) { ramp[record->light] = (uint16_t)flat_make(t, record); }
     return ramp[record->light];
 }

@@ -76,24 +76,6 @@ TUILE_INLINE uint8_t next_light(const transform_t *transform, const int8_t **nor
     return vertex_light(transform, n[0], n[1], n[2]);
 }
 
-/* The light of most scenes: none or one. */
-typedef struct vertex_sun {
-    int32_t x, y, z, ambient;
-    bool alone, two_sided;
-} vertex_sun_t;
-
-TUILE_INLINE uint8_t sun_light(const transform_t *transform, const vertex_sun_t *sun, const int8_t *n) {
-    if (TUILE_UNLIKELY(!sun->alone)) { return vertex_light(transform, n[0], n[1], n[2]); }
-    const int32_t dot = (n[0] * sun->x + n[1] * sun->y + n[2] * sun->z) >> 13;
-    int32_t sum = sun->ambient;
-    if (dot > 0) {
-        sum += dot;
-    } else if (sun->two_sided) {
-        sum -= dot;
-    }
-    return (uint8_t)(sum > LIGHT_MAX ? LIGHT_MAX : sum);
-}
-
 /* What all W with the same number of leading zeros share, where they are fast and strictly inside far plane: first <= W < first +
  * range. Neighbours mostly have it in common. */
 typedef struct vertex_octave {
@@ -123,13 +105,12 @@ TUILE_INLINE unsigned perspective(const transform_t *transform, const int16_t *q
     const int32_t low_x = transform->guard_x + GUARD_MARGIN, low_y = transform->guard_y + GUARD_MARGIN;
     const int32_t region_x = transform->region_x, region_y = transform->region_y;
     const uint32_t region_width = transform->region_width, region_height = transform->region_height;
-    const vertex_sun_t sun = {transform->lights[0][0], transform->lights[0][1],     transform->lights[0][2],
-                              transform->ambient,      transform->light_count <= 1, transform->two_sided};
+    const vertex_sun_t sun = vertex_sun(transform);
     vertex_octave_t octave = {.range = 0};
     unsigned any = 0;
 
     for (const vertex_t *const end = out + count; out != end; q += 3, out++) {
-        const uint8_t light = lit ? sun_light(transform, &sun, normal) : LIGHT_MIN;
+        const uint8_t light = lit ? vertex_sun_light(transform, &sun, normal) : LIGHT_MIN;
         if (lit) { normal += 3; }
         const int32_t w = (int32_t)coarse(&transform->w, q[0], q[1], q[2]);
         if (TUILE_UNLIKELY((uint32_t)w - octave.first >= octave.range) && !octave_of(transform, &octave, w)) {

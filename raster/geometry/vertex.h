@@ -59,4 +59,28 @@ TUILE_INLINE uint8_t vertex_light(const transform_t *transform, int32_t nx, int3
     return (uint8_t)(sum > LIGHT_MAX ? LIGHT_MAX : sum);
 }
 
+/* The light of most scenes: none or one. */
+typedef struct vertex_sun {
+    int32_t x, y, z, ambient;
+    bool alone, two_sided;
+} vertex_sun_t;
+
+TUILE_INLINE vertex_sun_t vertex_sun(const transform_t *transform) {
+    return (vertex_sun_t){transform->lights[0][0], transform->lights[0][1],     transform->lights[0][2],
+                          transform->ambient,      transform->light_count <= 1, transform->two_sided};
+}
+
+/* vertex_light at a normal of a model. */
+TUILE_INLINE uint8_t vertex_sun_light(const transform_t *transform, const vertex_sun_t *sun, const int8_t *n) {
+    if (TUILE_UNLIKELY(!sun->alone)) { return vertex_light(transform, n[0], n[1], n[2]); }
+    const int32_t dot = (n[0] * sun->x + n[1] * sun->y + n[2] * sun->z) >> 13;
+    int32_t sum = sun->ambient;
+    if (dot > 0) {
+        sum += dot;
+    } else if (sun->two_sided) {
+        sum -= dot;
+    }
+    return (uint8_t)(sum > LIGHT_MAX ? LIGHT_MAX : sum);
+}
+
 #endif

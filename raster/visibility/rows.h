@@ -213,11 +213,12 @@ TUILE_INLINE state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_
     }
 }
 
-/* The paint of a record's face. False: it cannot be drawn so. */
+/* The paint of a record's face, whose ramp is that of the material. False: it cannot be drawn so. */
 TUILE_INLINE bool small_prepare(tuile_t *t, const record_t *record, uint32_t number, small_kind_t kind, bool smooth,
                                 const small_face_t *face, small_paint_t *paint) {
     if (kind == SMALL_FLAT) {
-        paint->value = (uint16_t)frame_value(t, record, number);
+        const uint32_t kept = paint->ramp ? paint->ramp[record->light] : 0;
+        paint->value = (uint16_t)(TUILE_LIKELY(kept) ? kept : frame_value(t, record, number));
     } else if (kind == SMALL_TEXTURED) {
         const record_surface_t *extra = (const record_surface_t *)(const void *)record;
         if (TUILE_UNLIKELY(!textured_fits(t, record)) ||
@@ -254,14 +255,11 @@ TUILE_INLINE void smalls_draw(tuile_t *t, walk_t *walk, uint32_t limit, small_ki
         const vertex_t *v0 = vertices + record->v0, *v1 = v0 + record->d1, *v2 = v0 + record->d2;
         small_face_t face;
         if (TUILE_UNLIKELY(!small_open(&face, v0, v1, v2, &tile, known))) { break; }
-        if (kind == SMALL_GOURAUD) {
-            if (TUILE_UNLIKELY(record->material != material)) {
-                material = record->material;
-                paint.ramp = frame_ramp(t, record->material);
-            }
-        } else if (!small_prepare(t, record, number, kind, smooth, &face, &paint)) {
-            break;
+        if (kind != SMALL_TEXTURED && TUILE_UNLIKELY(record->material != material)) {
+            material = record->material;
+            paint.ramp = kind == SMALL_GOURAUD ? frame_ramp(t, record->material) : frame_flat_ramp(t, record->material);
         }
+        if (!small_prepare(t, record, number, kind, smooth, &face, &paint)) { break; }
         const bool reaches = small_fill(&face, v0, v1, v2, &tile, kind, smooth, record->light, &paint);
         list = record->next;
         count++;
