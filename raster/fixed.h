@@ -86,7 +86,7 @@ TUILE_INLINE uint64_t fixed_mul_part_by_halves(uint64_t a, uint32_t b) {
 TUILE_INLINE uint64_t fixed_mul_part(uint64_t a, uint32_t b) { return FIXED_BY_HALVES ? fixed_mul_part_by_halves(a, b) : a * b; }
 
 /* The same for a negative b too, |b| < 2^16. */
-TUILE_INLINE uint64_t fixed_mul_signed_part(uint64_t a, intptr_t b) {
+TUILE_INLINE uint64_t fixed_mul_signed_part(uint64_t a, int_fast32_t b) {
     if (!FIXED_BY_HALVES) { return a * (uint64_t)b; }
     return b < 0 ? 0 - fixed_mul_part_by_halves(a, (uint32_t)-b) : fixed_mul_part_by_halves(a, (uint32_t)b);
 }
@@ -106,7 +106,7 @@ TUILE_INLINE int64_t fixed_floor_div46(int64_t a, int32_t b) {
 }
 
 /* floor(a * b / 2^32), |a| <= 2^31: |result| < 2^31. */
-TUILE_INLINE int32_t fixed_mul_high(intptr_t a, uint32_t b) {
+TUILE_INLINE int32_t fixed_mul_high(int_fast32_t a, uint32_t b) {
     if (FIXED_BY_HALVES) { /* b as a signed number, and 2^32 a where that is less than b */
         const int32_t high = (int32_t)(fixed_mul_wide_by_halves((int32_t)a, (int32_t)b) >> 32);
         return (int32_t)b < 0 ? (int32_t)((uint32_t)high + (uint32_t)a) : high;

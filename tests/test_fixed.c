@@ -105,7 +105,7 @@ static void products_by_halves_are_exact(void **state) {
         assert_true(fixed_mul_part_by_halves(wide, part) == wide * part);
         assert_true(fixed_mul_wide(a, b) == (int64_t)a * b);
         assert_true(fixed_mul_part(wide, part) == wide * part);
-        assert_true(fixed_mul_signed_part(wide, -(intptr_t)part) == 0 - wide * part);
+        assert_true(fixed_mul_signed_part(wide, -(int_fast32_t)part) == 0 - wide * part);
     }
 }
 

@@ -1,6 +1,7 @@
 /* Vertices, with the arithmetic of geometry/vertex.c, which has the bounds and derives them. */
 #include "inside.h"
 
+#include "../divide.h"
 #include "../geometry/model.h"
 
 #define DEPTH_MIN UINT32_C(512)

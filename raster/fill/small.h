@@ -13,7 +13,7 @@
 #include "textured.h"
 #include "triangle_set_up.h"
 
-typedef intptr_t small_int_t;
+typedef int_fast32_t small_int_t;
 
 /* How a triangle is drawn: a constant wherever these functions are called. */
 typedef enum small_kind {
@@ -181,7 +181,7 @@ TUILE_INLINE void small_span(const small_rows_t *r, const small_tile_t *tile, sm
 }
 
 TUILE_INLINE small_int_t small_step(small_side_t side) { /* may wrap behind the last row */
-    return (small_int_t)((uintptr_t)side.x + (uintptr_t)side.slope);
+    return (small_int_t)((uint_fast32_t)side.x + (uint_fast32_t)side.slope);
 }
 
 /* count > 0. clamp: the triangle may touch columns beside the tile, whose own are left ... right - 1; a constant. */

@@ -21,7 +21,7 @@ TUILE_INLINE texture_corner_t textured_corner(const vertex_t *vertex, const int1
 }
 
 /* The map of a record's triangle that has short sides, where textured_fits: surface/textured.h. */
-TUILE_INLINE bool textured_face(tuile_t *t, textured_map_t *map, const record_t *record, intptr_t to_x, intptr_t to_y) {
+TUILE_INLINE bool textured_face(tuile_t *t, textured_map_t *map, const record_t *record, int_fast32_t to_x, int_fast32_t to_y) {
     const vertex_t *v0 = &t->vertices[record->v0];
     const int16_t *texcoords = t->textured_texcoords + 2 * (ptrdiff_t)record->v0;
     const texture_corner_t a = textured_corner(v0, texcoords), b = textured_corner(v0 + record->d1, texcoords + 2 * record->d1),

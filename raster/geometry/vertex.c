@@ -54,9 +54,9 @@ static TUILE_NOINLINE vertex_t vertex_from_fine(const transform_t *transform, co
 }
 
 /* 31 bits, in a whole register. By halves: the result fits in 32 bits, so all sums are modulo 2^32. */
-TUILE_INLINE intptr_t coarse(const transform_row_t *row, int32_t x, int32_t y, int32_t z) {
+TUILE_INLINE int_fast32_t coarse(const transform_row_t *row, int32_t x, int32_t y, int32_t z) {
     if (!FIXED_BY_HALVES) {
-        return (intptr_t)(((int64_t)row->m[0] * x + (int64_t)row->m[1] * y + (int64_t)row->m[2] * z + row->t) >> 16);
+        return (int_fast32_t)(((int64_t)row->m[0] * x + (int64_t)row->m[1] * y + (int64_t)row->m[2] * z + row->t) >> 16);
     }
     const int32_t q[3] = {x, y, z};
     uint32_t high = (uint32_t)(row->t >> 16), low = (uint32_t)row->t & 0xffffu;

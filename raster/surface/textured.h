@@ -42,7 +42,7 @@ TUILE_INLINE uint32_t textured_size(int32_t x) { return x < 0 ? 0u - (uint32_t)x
  * Gradients by the reciprocal of the area as in surface/texture_affine.h, off by 2^-10 texel a pixel, and floored for a sixteenth
  * of a pixel, 2^-12 a pixel: over 2 * 32 pixels 5/64 texel. */
 TUILE_INLINE bool textured_map_at(textured_map_t *map, textured_material_t *m, const texture_corner_t *a, const texture_corner_t *b,
-                                  const texture_corner_t *c, unsigned bits, intptr_t to_x, intptr_t to_y) {
+                                  const texture_corner_t *c, unsigned bits, int_fast32_t to_x, int_fast32_t to_y) {
     const int32_t x1 = b->x - a->x, y1 = b->y - a->y, x2 = c->x - a->x, y2 = c->y - a->y;
     const int32_t s1 = (b->s - a->s) * (1 << bits), t1 = (b->t - a->t) * (1 << bits), s2 = (c->s - a->s) * (1 << bits),
                   t2 = (c->t - a->t) * (1 << bits);
