@@ -14,7 +14,7 @@ extern const uint32_t divide_table[DIVIDE_TABLE];
  * table's number is below 2^31, and the quotient from that 1 too small at most. */
 TUILE_INLINE int32_t divide_side_by_table(int32_t dx, int32_t dy) {
     const uint32_t size = (uint32_t)(dx < 0 ? -dx : dx), down = (uint32_t)dy, inverse = divide_table[dy], whole = inverse >> 2;
-    const uint32_t part = size * ((1u << 20) - whole * down);
+    const uint32_t part = size * ((UINT32_C(1) << 20) - whole * down);
     uint32_t quotient = (part * inverse) >> 22, rest = part - quotient * down;
     if (rest >= down) { quotient++, rest -= down; }
     quotient += size * whole;
@@ -64,7 +64,7 @@ TUILE_INLINE uint32_t divide_ones_by_table(uint32_t d) {
 }
 
 TUILE_INLINE int32_t divide_side(int32_t dx, int32_t dy) {
-    return FIXED_BY_HALVES ? divide_side_by_table(dx, dy) : fixed_floor_div(dx * (1 << 20), dy);
+    return FIXED_BY_HALVES ? divide_side_by_table(dx, dy) : fixed_floor_div(dx * (INT32_C(1) << 20), dy);
 }
 
 TUILE_INLINE int32_t divide_area(int32_t area) { return FIXED_BY_HALVES ? divide_area_by_table(area) : INT32_MAX / area; }
