@@ -1,5 +1,5 @@
 /* A panel as constant data: what its data sheet says, in a form that one driver (panel.c) can follow. It stays in flash
- * (base/flash.h).
+ * (raster/flash.h).
  *
  * GEOMETRY, the one formula for the four rotations. A controller has RAM for ram_width x ram_height pixels, the glass shows
  * view_width x view_height of them, and the first shown pixel is at (offset_x, offset_y) as the RAM is numbered without
@@ -23,7 +23,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "../base/flash.h"
+#include "../raster/flash.h"
 #include "bus.h"
 #include "device.h"
 #include "wire.h"

@@ -1,7 +1,7 @@
 /* How pixels lie on the wire: the formats that panels and USB displays take.
  *
  * A number is one more than the renderer's tuile_format_t of the same bytes, so that the frame loop needs no table: hal/ includes
- * nothing of raster/. Pixels of a window come row by row; where they are smaller than a byte, windows are aligned to whole bytes.
+ * nothing of raster/ but flash.h, which says where constants lie. Pixels of a window come row by row; where they are smaller than a byte, windows are aligned to whole bytes.
  */
 #ifndef TUILE_HAL_WIRE_H
 #define TUILE_HAL_WIRE_H

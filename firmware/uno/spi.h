@@ -10,7 +10,7 @@
 #ifndef FIRMWARE_UNO_SPI_H
 #define FIRMWARE_UNO_SPI_H
 
-#include "../../base/flash.h"
+#include "../../raster/flash.h"
 #include "../../hal/bus.h"
 
 #define UNO_CLOCK_HZ 16000000UL

@@ -3,7 +3,7 @@
 UNO := $(FIRMWARE)/uno
 UNO_SRC := $(wildcard firmware/uno/*.c) firmware/board/memory.c hal/display.c hal/panel.c hal/wire.c hal/panels/ssd1306.c \
            raster/pixel.c $(filter-out raster/compact/view.c,$(wildcard raster/compact/*.c))
-# gnu11: flash is an address space of its own (base/flash.h). -fno-ivopts: gcc 5.4 dies of pointers into it in loops. The other -fno-
+# gnu11: flash is an address space of its own (raster/flash.h). -fno-ivopts: gcc 5.4 dies of pointers into it in loops. The other -fno-
 # together save 1 366 bytes of 29 396, and -fno-tree-switch-conversion tables in RAM.
 UNO_FLAGS := -mmcu=atmega328p -std=gnu11 -Os -ffreestanding -fno-ivopts -fno-tree-loop-optimize -fno-move-loop-invariants \
              -fno-inline-small-functions -fno-tree-switch-conversion -mstrict-X -mcall-prologues -ffunction-sections -fdata-sections -fstack-usage

@@ -15,7 +15,7 @@
 #ifndef TUILE_COMPACT_COMPACT_H
 #define TUILE_COMPACT_COMPACT_H
 
-#include "../../base/flash.h"
+#include "../flash.h"
 #include "../tuile.h"
 
 #define TUILE_COMPACT_LIGHTS 2u

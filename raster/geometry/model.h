@@ -10,7 +10,7 @@
 #ifndef TUILE_GEOMETRY_MODEL_H
 #define TUILE_GEOMETRY_MODEL_H
 
-#include "../../base/flash.h"
+#include "../flash.h"
 #include "../tuile.h"
 
 #define MODEL_MAGIC 0x4c495554u /* "TUIL" */

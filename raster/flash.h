@@ -6,8 +6,8 @@
  * refuses a pointer to flash where one to memory is wanted. Bytes that go to functions which take either must be read out first:
  * TUILE_FLASH_APART is 1 where that is so.
  */
-#ifndef TUILE_BASE_FLASH_H
-#define TUILE_BASE_FLASH_H
+#ifndef TUILE_FLASH_H
+#define TUILE_FLASH_H
 
 #if defined(__FLASH) /* gcc for AVR, with -std=gnu11: named address spaces (ISO/IEC TR 18037) are an extension of C11 */
 #define TUILE_FLASH __flash
