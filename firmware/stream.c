@@ -69,7 +69,7 @@ static int next(tuile_t *renderer, const tuile_stream_hooks_t *hooks, uint32_t *
 int tuile_stream_tiles(tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display, const tuile_stream_hooks_t *hooks,
                        tuile_stats_t *stats) {
     const tuile_config_t *config = tuile_config(renderer);
-    tuile_tile_t tile;
+    tuile_tile_t tile = {0};
     uint32_t index = 0;
     int result, waited, ended;
 

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #define DISPLAYS_MAX 8u
+#define TICK_US 50000u /* between looks at whether the user ended it */
 
 static const char usage[] =
     "Usage: tuile card [options]\n"
@@ -143,8 +144,9 @@ static void hold(const card_command_t *c, const shown_t *shown) {
     for (unsigned i = 0; i < c->count; i++) {
         real = real || !target_is_simulated(&shown[i].target);
     }
-    for (double left = c->has_hold ? c->hold : 1e9; real && left > 0 && !interrupt_seen(); left -= 0.05) {
-        (void)usleep(50000);
+    const double ticks = c->hold / (TICK_US / 1e6); /* <= 2e7 */
+    for (uint32_t tick = 0; real && (!c->has_hold || tick < ticks) && !interrupt_seen(); tick++) {
+        (void)usleep(TICK_US);
     }
 }
 

@@ -97,8 +97,8 @@ static int panel_part(target_config_t *config, const part_t *part, sim_error_t *
             y + panel->view_height > panel->ram_height) {
             char wants[80];
             (void)snprintf(wants, sizeof wants, "X:Y, at most %u:%u, since the chip has memory for %ux%u",
-                           panel->ram_width - panel->view_width, panel->ram_height - panel->view_height, panel->ram_width,
-                           panel->ram_height);
+                           (unsigned)panel->ram_width - panel->view_width, (unsigned)panel->ram_height - panel->view_height,
+                           panel->ram_width, panel->ram_height);
             return refuse(config, part, wants, error);
         }
         panel->offset_x = (uint16_t)x;
