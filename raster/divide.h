@@ -50,8 +50,8 @@ TUILE_INLINE int32_t divide_area_by_table(int32_t area) {
     int32_t rest = (int32_t)((uint32_t)INT32_MAX - (uint32_t)quotient * (uint32_t)area); /* |rest| < 2^24 */
     int32_t more = ((rest >> 8) * inverse) >> (14 + shift);
     quotient += more;
-    rest -= more * area; /* below 2^17 in size */
-    more = (rest * inverse) >> (22 + shift);
+    rest -= more * area; /* below 2^18 in size */
+    more = ((rest >> 1) * inverse) >> (21 + shift);
     return (int32_t)divide_settle((uint32_t)(quotient + more), rest - more * area, area);
 }
 
