@@ -319,8 +319,8 @@ static void every_panel_shows_the_card_in_every_rotation_and_format(void **state
             const tuile_display_t *display = &target.display;
             const unsigned rows = 3u * (display->align_y < 8 ? 8u : display->align_y);
             const bool narrow = turn % 2 != 0; /* tiles of part of a row, too */
-            draw_both(*state, &target, narrow ? (uint16_t)(display->width / 2 / display->align_x * display->align_x) : 0,
-                      (uint16_t)rows, &decoded);
+            const uint32_t half = display->width / 2u / display->align_x * display->align_x;
+            draw_both(*state, &target, (uint16_t)(narrow ? half : 0u), (uint16_t)rows, &decoded);
             assert_int_equal(target_picture(&target, &seen, NULL, &error), 0);
             check_seen(&target, &seen, &decoded);
             sim_picture_free(&seen);
