@@ -76,8 +76,16 @@ TUILE_INLINE void fill_rows(triangle_t *t, const raster_tile_t *tile, bool teste
 
     for (;;) {
         int32_t rows = (t->row_mid < end ? t->row_mid : end) - row;
-        short_edge_t sa = t->side.brief.a, sb = t->side.brief.b;
-        edge_t fa = t->side.full.a, fb = t->side.full.b;
+        /* One or the other: where sides are short the state ends behind `brief`, and may do so at the end of the block. */
+        short_edge_t sa = {0}, sb = {0};
+        edge_t fa = {0}, fb = {0};
+        if (is_short) {
+            sa = t->side.brief.a;
+            sb = t->side.brief.b;
+        } else {
+            fa = t->side.full.a;
+            fb = t->side.full.b;
+        }
         row += rows;
         do {
             int32_t from = is_short ? short_edge_pixel(sa.x) : fa.x, to = is_short ? short_edge_pixel(sb.x) : fb.x;
