@@ -179,12 +179,13 @@ check: $(TESTS) $(GPIOD2_TESTS) $(FUZZERS) $(TUILE) $(SPIDER) $(BUNNY_6000)
 	@$(call RUN_TESTS,$(FUZZERS))
 	@$(call RUN_TESTS,$(TESTS) $(GPIOD2_TESTS))
 
-test: ## builds and passes everything: gcc, emulated boards, sanitizers, clang
+test: ## builds and passes everything: gcc, emulated boards, sanitizers, clang, a real kernel
 	$(MAKE) --no-print-directory check objects
 	$(MAKE) --no-print-directory test-firmware
 	$(MAKE) --no-print-directory check VARIANT=asan
 	$(MAKE) --no-print-directory test-tsan
 	$(MAKE) --no-print-directory test-clang
+	$(MAKE) --no-print-directory test-linux
 
 golden: $(filter $(OBJ)/test_golden%,$(TESTS)) $(TUILE) $(SPIDER) $(BUNNY_6000) ## draw the golden pictures anew; look at them before you commit them
 	@export UPDATE_GOLDEN=1; $(call RUN_TESTS,$(filter $(OBJ)/test_golden%,$(TESTS)))
