@@ -93,11 +93,12 @@ static int parse(card_command_t *c, int count, char **arguments) {
 
 /* One frame of nothing but the card, in strips. */
 static int draw(shown_t *shown) {
-    static const tuile_scene_t nothing = {.camera = {.focal_x = TUILE_Q16(100),
-                                                     .focal_y = TUILE_Q16(100),
-                                                     .near = TUILE_Q16(1),
-                                                     .far = TUILE_Q16(2),
-                                                     .rotation = {{16384, 0, 0}, {0, 16384, 0}, {0, 0, 16384}}}};
+    static const tuile_scene_t nothing = {
+        .camera = {.focal_x = TUILE_Q16(100),
+                   .focal_y = TUILE_Q16(100),
+                   .near = TUILE_Q16(1),
+                   .far = TUILE_Q16(2),
+                   .rotation = {{TUILE_ONE_Q30, 0, 0}, {0, TUILE_ONE_Q30, 0}, {0, 0, TUILE_ONE_Q30}}}};
     tuile_display_t *display = &shown->target.display;
     tuile_config_t config = {.tile_height = (uint16_t)(24 / display->align_y * display->align_y)};
     tuile_t *renderer;

@@ -55,20 +55,24 @@ bool render_value_warnock(options_t *options, uint8_t *variants) {
     return true;
 }
 
-bool render_value_clock(options_t *options, size_t *hz) {
-    double value;
-    const char *text = options_value(options);
+bool render_value_hz(const char *text, size_t *hz) {
     char *end;
+    double value = strtod(text, &end);
+    if (end != text && *end == 'M') { value *= 1e6, end++; }
+    if (end != text && (*end == 'k' || *end == 'K')) { value *= 1e3, end++; }
+    if (end == text || *end != '\0' || !(value >= 0 && value <= 1e9)) { return false; }
+    *hz = (size_t)value;
+    return true;
+}
+
+bool render_value_clock(options_t *options, size_t *hz) {
+    const char *text = options_value(options);
     if (!text) { return false; }
-    value = strtod(text, &end);
-    if (*end == 'M') { value *= 1e6, end++; }
-    if (*end == 'k' || *end == 'K') { value *= 1e3, end++; }
-    if (end == text || *end != '\0' || !(value >= 0 && value <= 1e9)) {
+    if (!render_value_hz(text, hz)) {
         (void)command_fail("--clock %s: wants Hz, like 62.5M, up to 1000M", text);
         options->failed = true;
         return false;
     }
-    *hz = (size_t)value;
     return true;
 }
 

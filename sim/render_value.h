@@ -15,7 +15,9 @@ bool render_value_background(options_t *options, uint8_t background[3]);
 /* "single,box": tuile_warnock_t, or-ed. */
 bool render_value_warnock(options_t *options, uint8_t *variants);
 
-/* "62.5M" */
+/* Hz in a text, "62.5M" or "500k", at most 1000M, rounded down; false, without a message, for any other. */
+bool render_value_hz(const char *text, size_t *hz);
+/* The same as an option's value; 0 is allowed. */
 bool render_value_clock(options_t *options, size_t *hz);
 
 /* An output name may hold one %d, with a width; without it all frames would have the same name. */

@@ -1,5 +1,7 @@
 #include "target.h"
 
+#include "render_value.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,11 +39,8 @@ static bool read_number(const char *text, unsigned long least, unsigned long mos
 }
 
 static bool read_clock(const char *text, uint32_t *hz) {
-    char *end;
-    double value = strtod(text, &end);
-    if (end != text && *end == 'M') { value *= 1e6, end++; }
-    if (end != text && (*end == 'k' || *end == 'K')) { value *= 1e3, end++; }
-    if (end == text || *end || !(value >= 1 && value <= 1e9)) { return false; }
+    size_t value;
+    if (!render_value_hz(text, &value) || value == 0) { return false; }
     *hz = (uint32_t)value;
     return true;
 }

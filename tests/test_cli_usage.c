@@ -64,6 +64,7 @@ static void options_out_of_range_are_refused_by_name(void **state) {
         {"--rotate", "45"},
         {"--rotate", "-90"},
         {"--clock", "fast"},
+        {"--clock", "M"},
         {"--clock", "2000M"},
         {"--clock", "-1"},
         {"--method", "raytrace"},

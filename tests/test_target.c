@@ -237,11 +237,12 @@ static int tear_down(void **state) {
     return 0;
 }
 
-static const tuile_scene_t nothing = {.camera = {.focal_x = TUILE_Q16(100),
-                                                 .focal_y = TUILE_Q16(100),
-                                                 .near = TUILE_Q16(1),
-                                                 .far = TUILE_Q16(2),
-                                                 .rotation = {{16384, 0, 0}, {0, 16384, 0}, {0, 0, 16384}}}};
+static const tuile_scene_t nothing = {
+    .camera = {.focal_x = TUILE_Q16(100),
+               .focal_y = TUILE_Q16(100),
+               .near = TUILE_Q16(1),
+               .far = TUILE_Q16(2),
+               .rotation = {{TUILE_ONE_Q30, 0, 0}, {0, TUILE_ONE_Q30, 0}, {0, 0, TUILE_ONE_Q30}}}};
 
 /* The card by the frame loop on the display; and the same tiles decoded without one. */
 static void draw_both(const card_set_t *set, target_t *target, uint16_t tile_width, uint16_t tile_height, sim_picture_t *decoded) {
