@@ -38,6 +38,12 @@ class Frames:
                 [f"{scene} by {method}: not in the board's list" for (scene, method), shown in self.shown.items()
                  if shown >= count and (scene, method) not in wanted])
 
+    def too_much_stack(self, most):
+        """A list of one fault when more was used than the call graph allows (None: it was not asked), else an empty one."""
+        if self.stack and most and self.stack[0] > most:
+            return [f"{self.stack[0]} bytes of stack were used, but the call graph has at most {most}"]
+        return []
+
 
 def read_wanted(path):
     """firmware/BOARD/frames: a line for each scene, with the methods that draw it on the board."""

@@ -4,7 +4,6 @@
     lm3s6965evb.py show IMAGE --out FOLDER [--plugin LIB]     saves the frames as PNG, and tells instructions of each
 """
 
-import argparse
 import os
 import sys
 
@@ -12,6 +11,7 @@ from expected import Simulator, differ
 from frames import FAULTS, Frames, read_wanted
 from picture import read_ppm, reduce
 from qemu import EmulatorError, Qemu, counted_frames
+from script import run_script, verdict
 
 MAGNIFIED = 4  # QEMU draws a pixel of the panel as a square of 4 x 4, and a level v of 15 as 17 v
 
@@ -68,16 +68,10 @@ def test(arguments):
             faults, frames = run_frames(image, cpu, simulator, wanted, arguments.frames, arguments.out, arguments.limit)
             for name in FAULTS:
                 faults += run_fault(image, cpu, name, arguments.limit)
-            if frames.stack and arguments.stack and frames.stack[0] > arguments.stack:
-                faults.append(f"{frames.stack[0]} bytes of stack were used, but the call graph has at most {arguments.stack}")
+            faults += frames.too_much_stack(arguments.stack)
         except EmulatorError as error:
             faults, frames = [str(error)], None
-        for fault in faults:
-            print(f"{cpu}: {fault}")
-        failed = failed or bool(faults)
-        if frames and not faults:
-            print(f"{cpu}: {sum(frames.shown.values())} frames of {len(frames.shown)} scenes by methods are the simulator's, bit for bit; "
-                  f"stack {frames.stack[0]} of {frames.stack[1]} bytes; faults are told")
+        failed = not verdict(cpu, faults, frames) or failed
     return 1 if failed else 0
 
 
@@ -109,26 +103,8 @@ def show(arguments):
     return 1 if code else 0
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("test", "show"))
-    parser.add_argument("image")
+def more(parser):
     parser.add_argument("--cpu", default="cortex-m3", help="names of QEMU, each with an image of its own behind a colon or without")
-    parser.add_argument("--wanted", help="the board's list of scenes and methods")
-    parser.add_argument("--tuile", default="build/tuile")
-    parser.add_argument("--models", default="build/firmware/models")
-    parser.add_argument("--frames", type=int, default=8)
-    parser.add_argument("--out", required=True, help="folder for pictures")
-    parser.add_argument("--limit", type=float, default=60, help="seconds of one run")
-    parser.add_argument("--stack", type=int, help="most bytes of stack that the call graph allows")
-    parser.add_argument("--plugin", help="counter of instructions")
-    parser.add_argument("--options", default="", help="of the program, like 'scene=spider frames=4'")
-    arguments = parser.parse_args()
-    try:
-        return (test if arguments.what == "test" else show)(arguments)
-    except (EmulatorError, RuntimeError) as error:
-        print(error, file=sys.stderr)
-        return 1
 
 
-sys.exit(main())
+sys.exit(run_script(__doc__, test, show, more))

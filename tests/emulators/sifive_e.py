@@ -4,7 +4,6 @@
     sifive_e.py show IMAGE --wire-trace PROGRAM --out FOLDER   saves the frames as PNG
 """
 
-import argparse
 import os
 import subprocess
 import sys
@@ -12,7 +11,8 @@ import sys
 from expected import Simulator, differ
 from frames import FAULTS, Frames, read_wanted
 from picture import read_ppm
-from qemu import EmulatorError, Qemu, counted_frames
+from qemu import Qemu, counted_frames
+from script import run_script, verdict
 
 PANEL = "ili9341"
 
@@ -57,14 +57,8 @@ def test(arguments):
         _, _, code = run(arguments, f"fault={name}", folder)
         if code != expected:
             faults.append(f"fault={name}: ended with {code}, not {expected}")
-    if frames.stack and arguments.stack and frames.stack[0] > arguments.stack:
-        faults.append(f"{frames.stack[0]} bytes of stack were used, but the call graph has at most {arguments.stack}")
-    for fault in faults:
-        print(f"rv32imac: {fault}")
-    if not faults:
-        print(f"rv32imac: {sum(frames.shown.values())} frames of {len(frames.shown)} scenes by methods are the simulator's, bit for bit; "
-              f"stack {frames.stack[0]} of {frames.stack[1]} bytes; faults are told")
-    return 1 if faults else 0
+    faults += frames.too_much_stack(arguments.stack)
+    return 0 if verdict("rv32imac", faults, frames) else 1
 
 
 def show(arguments):
@@ -89,26 +83,8 @@ def show(arguments):
     return 1 if code else 0
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("test", "show"))
-    parser.add_argument("image")
+def more(parser):
     parser.add_argument("--wire-trace", required=True, help="the program that reads the trace")
-    parser.add_argument("--wanted", help="the board's list of scenes and methods")
-    parser.add_argument("--tuile", default="build/tuile")
-    parser.add_argument("--models", default="build/firmware/models")
-    parser.add_argument("--frames", type=int, default=8)
-    parser.add_argument("--out", required=True, help="folder for pictures")
-    parser.add_argument("--limit", type=float, default=60, help="seconds of one run")
-    parser.add_argument("--stack", type=int, help="most bytes of stack that the call graph allows")
-    parser.add_argument("--plugin", help="counter of instructions")
-    parser.add_argument("--options", default="", help="of the program, like 'scene=spider frames=4'")
-    arguments = parser.parse_args()
-    try:
-        return (test if arguments.what == "test" else show)(arguments)
-    except (EmulatorError, RuntimeError) as error:
-        print(error, file=sys.stderr)
-        return 1
 
 
-sys.exit(main())
+sys.exit(run_script(__doc__, test, show, more))

@@ -1,0 +1,39 @@
+"""What the scripts of QEMU's boards have in common: their arguments, and how a test's end is told."""
+
+import argparse
+import sys
+
+from qemu import EmulatorError
+
+
+def verdict(name, faults, frames):
+    """Prints how a test ended; returns whether it passed. frames: None when it was not run to its end."""
+    for fault in faults:
+        print(f"{name}: {fault}")
+    if frames and not faults:
+        print(f"{name}: {sum(frames.shown.values())} frames of {len(frames.shown)} scenes by methods are the simulator's, bit for bit; "
+              f"stack {frames.stack[0]} of {frames.stack[1]} bytes; faults are told")
+    return not faults
+
+
+def run_script(doc, test, show, more):
+    """The main of a board's script: more(parser) adds what is the board's own. Returns the exit code."""
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=("test", "show"))
+    parser.add_argument("image")
+    more(parser)
+    parser.add_argument("--wanted", help="the board's list of scenes and methods")
+    parser.add_argument("--tuile", default="build/tuile")
+    parser.add_argument("--models", default="build/firmware/models")
+    parser.add_argument("--frames", type=int, default=8)
+    parser.add_argument("--out", required=True, help="folder for pictures")
+    parser.add_argument("--limit", type=float, default=60, help="seconds of one run")
+    parser.add_argument("--stack", type=int, help="most bytes of stack that the call graph allows")
+    parser.add_argument("--plugin", help="counter of instructions")
+    parser.add_argument("--options", default="", help="of the program, like 'scene=spider frames=4'")
+    arguments = parser.parse_args()
+    try:
+        return (test if arguments.what == "test" else show)(arguments)
+    except (EmulatorError, RuntimeError) as error:
+        print(error, file=sys.stderr)
+        return 1
