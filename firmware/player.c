@@ -29,6 +29,8 @@ int player_open(player_t *player, const scene_script_t *script, const player_con
         .format = tuile_stream_format(config->display),
         .method = config->method,
         .buffers = config->buffers,
+        .overlay = config->overlay,
+        .overlay_context = config->overlay_context,
     };
     int error;
 
@@ -44,10 +46,13 @@ int player_open(player_t *player, const scene_script_t *script, const player_con
 }
 
 int player_frame(player_t *player, uint32_t frame) {
-    int error = scene_frame(&player->stage, frame);
+    const int error = scene_frame(&player->stage, frame);
 
-    if (error) { return error; }
-    error = tuile_stream_frame(player->renderer, &player->stage.scene, player->display, &player->stats);
+    return error ? error : player_show(player);
+}
+
+int player_show(player_t *player) {
+    const int error = tuile_stream_frame(player->renderer, &player->stage.scene, player->display, &player->stats);
     if (error == TUILE_ERROR_MEMORY) { player->wanted_bytes = tuile_wanted(player->renderer); }
     return error;
 }

@@ -15,6 +15,8 @@ typedef struct player_config {
     uint8_t method;                   /* tuile_method_t, of those of the script */
     uint8_t buffers;                  /* tiles in flight: 1 or 2; 0 = 2 */
     uint16_t tile_width, tile_height; /* 0 = the whole width; as high as suits the block and the display */
+    tuile_overlay_fn overlay;         /* drawn over each tile; NULL = none */
+    void *overlay_context;
 } player_config_t;
 
 /* Must not be moved while it is open. */
@@ -32,5 +34,8 @@ int player_open(player_t *player, const scene_script_t *script, const player_con
 
 /* Draws one frame and shows it. 0 or an error of either kind. */
 int player_frame(player_t *player, uint32_t frame);
+
+/* The same of the stage as it is set, by scene_phase. */
+int player_show(player_t *player);
 
 #endif

@@ -6,7 +6,7 @@
 #define ALL_BUT_TREE (1u << TUILE_ZBUFFER | 1u << TUILE_SCANLINE | 1u << TUILE_WARNOCK | 1u << TUILE_PAINTER)
 #define ALL (ALL_BUT_TREE | 1u << TUILE_TREE)
 
-#define PERIOD 32u
+#define PERIOD 32u     /* a power of two: 65536 is a multiple of it */
 #define RADIUS_BITS 10 /* of a turning model's bounding sphere, in world units: far from the ends of Q16.16 */
 
 /* ---- a model that turns before the camera ------------------------------------------------------------------------- */
@@ -25,10 +25,8 @@ static tuile_scale_t scale_for(const tuile_model_t *model) {
     return (tuile_scale_t){1, RADIUS_BITS - bits((uint64_t)model->step.mantissa * model->radius) - model->step.exponent};
 }
 
-static bam16_t angle_of(uint32_t frame) { return (bam16_t)(frame % PERIOD * (65536u / PERIOD)); }
-
 /* About the vertical through the centre of its bounding sphere, which stays at the origin and fits the window. */
-static int turn(scene_stage_t *stage, uint32_t frame) {
+static int turn(scene_stage_t *stage, bam16_t phase) {
     static const q16_16_t origin[3] = {0};
     static const bam16_t yaw = 3968, pitch = 2844, view = 8192; /* 21.8, 15.6 and 45 degrees */
     tuile_pose_t *pose = &stage->instance.pose;
@@ -37,7 +35,7 @@ static int turn(scene_stage_t *stage, uint32_t frame) {
     int error;
 
     pose->scale = scale_for(&stage->model);
-    tuile_rotation(pose->rotation, 1, angle_of(frame));
+    tuile_rotation(pose->rotation, 1, phase);
     for (int i = 0; i < 3; i++) {
         pose->translation[i] = 0;
     }
@@ -56,12 +54,12 @@ static int turn(scene_stage_t *stage, uint32_t frame) {
 /* World units are 1/256 m; the room is 4 x 2.5 x 6 m, the floor at y = 0. */
 #define METRES(m) TUILE_Q16((m)*256)
 
-static int look_round(scene_stage_t *stage, uint32_t frame) {
+static int look_round(scene_stage_t *stage, bam16_t phase) {
     static const q16_16_t middle[3] = {0, METRES(1), METRES(-0.5)};
     static const bam16_t sway = 7282, pitch = 910, view = 12743; /* 40 either way, 5 and 70 degrees */
     tuile_pose_t *pose = &stage->instance.pose;
     tuile_camera_t *camera = &stage->scene.camera;
-    const int64_t swing = (int64_t)tuile_sin(angle_of(frame)) * sway;
+    const int64_t swing = (int64_t)tuile_sin(phase) * sway;
 
     pose->scale = (tuile_scale_t){1, 8};
     tuile_rotation(pose->rotation, 1, 0);
@@ -82,7 +80,7 @@ static const scene_script_t cube = {
     .shade = TUILE_FLAT,
     .ram_kb = 2,
     .period = PERIOD,
-    .frame = turn,
+    .set = turn,
 };
 #endif
 
@@ -95,7 +93,7 @@ static const scene_script_t room = {
     .shade = TUILE_FLAT,
     .ram_kb = 2,
     .period = PERIOD,
-    .frame = look_round,
+    .set = look_round,
 };
 #endif
 
@@ -108,7 +106,7 @@ static const scene_script_t spider = {
     .shade = TUILE_GOURAUD,
     .ram_kb = 16,
     .period = PERIOD,
-    .frame = turn,
+    .set = turn,
 };
 #endif
 
@@ -121,7 +119,20 @@ static const scene_script_t bunny = {
     .shade = TUILE_GOURAUD,
     .ram_kb = 256,
     .period = PERIOD,
-    .frame = turn,
+    .set = turn,
+};
+#endif
+
+#if SCENES & SCENE_MODEL
+static const scene_script_t model = {
+    .name = "model",
+    .about = "a model of your own (--model FILE), lit, turning",
+    .model = "model",
+    .methods = ALL,
+    .shade = TUILE_GOURAUD,
+    .ram_kb = 16,
+    .period = PERIOD,
+    .set = turn,
 };
 #endif
 
@@ -137,6 +148,9 @@ const scene_script_t *const scenes[] = {
 #endif
 #if SCENES & SCENE_BUNNY
     &bunny,
+#endif
+#if SCENES & SCENE_MODEL
+    &model,
 #endif
 };
 
@@ -186,4 +200,10 @@ void scene_configure(const scene_stage_t *stage, tuile_config_t *config) {
     config->tree_depth = stage->model.tree_depth;
 }
 
-int scene_frame(scene_stage_t *stage, uint32_t frame) { return stage->script->frame(stage, frame); }
+int scene_phase(scene_stage_t *stage, bam16_t phase) { return stage->script->set(stage, phase); }
+
+int scene_frame(scene_stage_t *stage, uint32_t frame) {
+    const uint32_t period = stage->script->period;
+
+    return scene_phase(stage, (bam16_t)(frame % period * (65536u / period)));
+}

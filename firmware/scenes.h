@@ -1,7 +1,7 @@
 /* The scenes that every board and the simulator draw: one list, so that a frame on a board can be held against the simulator's.
  *
- * A script says what a scene needs and sets it up for any frame and any window, in fixed point only; a stage is where it is set up.
- * Boards differ in size, format and memory, never in a scene. A build takes a part of the list with -DSCENES=BITS.
+ * A script says what a scene needs and sets it up for any moment and any window, in fixed point only; a stage is where it is set
+ * up. Boards differ in size, format and memory, never in a scene. A build takes a part of the list with -DSCENES=BITS.
  */
 #ifndef TUILE_FIRMWARE_SCENES_H
 #define TUILE_FIRMWARE_SCENES_H
@@ -12,9 +12,10 @@
 #define SCENE_ROOM 2
 #define SCENE_SPIDER 4
 #define SCENE_BUNNY 8
+#define SCENE_MODEL 16 /* any model */
 
 #ifndef SCENES
-#define SCENES 0xf
+#define SCENES 0x1f
 #endif
 
 typedef struct scene_script scene_script_t;
@@ -38,7 +39,7 @@ struct scene_script {
     uint8_t effects;   /* tuile_effects_t, or-ed */
     uint16_t ram_kb;   /* of the smallest board that it is meant for */
     uint16_t period;   /* frames until it comes round */
-    int (*frame)(scene_stage_t *stage, uint32_t frame);
+    int (*set)(scene_stage_t *stage, bam16_t phase);
 };
 
 extern const scene_script_t *const scenes[];
@@ -57,5 +58,9 @@ void scene_configure(const scene_stage_t *stage, tuile_config_t *config);
 
 /* Sets any frame, in any order: nothing is carried over from the one before. 0 or a tuile_error_t. */
 int scene_frame(scene_stage_t *stage, uint32_t frame);
+
+/* The same for any moment: a scene comes round in 65536 phases, whatever the time that a frame takes. Frame n is the phase
+ * n * 65536 / period. */
+int scene_phase(scene_stage_t *stage, bam16_t phase);
 
 #endif

@@ -1,11 +1,14 @@
 /* tuile scene: the scenes that boards draw, on a simulated panel: what a board's frames are held against. */
+#include "../firmware/caption.h"
 #include "../firmware/player.h"
 #include "commands.h"
+#include "font.h"
 #include "mesh/mesh.h"
 #include "render_display.h"
 #include "render_format.h"
 #include "render_value.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +23,9 @@ static const char usage[] =
     "  --method M               hidden-surface method: zbuffer (default), scanline, warnock, painter, tree\n"
     "  --frames N               number of frames, 1 by default\n"
     "  --first N                number of the first one, 0 by default\n"
+    "  --phase N                one frame between those: of 65536 until the scene comes round\n"
+    "  --show-rate R            writes it over the frame as the demo of a board does: frames a second, or 0 for not known\n"
+    "  --show-method            likewise the method\n"
     "  --memory 16K             the renderer's memory, 256K by default\n"
     "  --tile WxH               tile size in pixels; by default whole rows, as many as suit the memory\n"
     "  --format F               format on the wire, of those that the display takes\n"
@@ -28,7 +34,7 @@ static const char usage[] =
 
 typedef struct scene_command {
     const char *name, *models, *model, *out;
-    long frames, first;
+    long frames, first, phase; /* phase -1: that of the frame */
     size_t memory_bytes;
     uint16_t tile_width, tile_height;
     bool hash;
@@ -37,17 +43,27 @@ typedef struct scene_command {
     render_format_t format;
 
     const scene_script_t *script;
-    uint8_t *bytes;
+    uint8_t *bytes, *font;
     void *block;
+    caption_t caption;
     target_t target;
     player_t player;
 } scene_command_t;
+
+/* "12.3", in tenths. */
+static void parse_rate(caption_t *caption, options_t *options) {
+    double rate;
+    if (!options_number(options, &rate, 0, CAPTION_RATE_MOST / 10.0)) { return; }
+    caption->rate = (uint16_t)lround(10 * rate);
+    caption->show_rate = true;
+}
 
 static int parse(scene_command_t *c, int count, char **arguments) {
     options_t options;
     const char *argument;
     int choice;
     c->frames = 1;
+    c->phase = -1;
     c->memory_bytes = 256u * 1024u;
     c->models = "build/firmware/models";
     options_open(&options, count, arguments);
@@ -65,6 +81,12 @@ static int parse(scene_command_t *c, int count, char **arguments) {
             (void)options_integer(&options, &c->frames, 1, 100000);
         } else if (strcmp(argument, "--first") == 0) {
             (void)options_integer(&options, &c->first, 0, 100000);
+        } else if (strcmp(argument, "--phase") == 0) {
+            (void)options_integer(&options, &c->phase, 0, 65535);
+        } else if (strcmp(argument, "--show-rate") == 0) {
+            parse_rate(&c->caption, &options);
+        } else if (strcmp(argument, "--show-method") == 0) {
+            c->caption.show_method = true;
         } else if (strcmp(argument, "--memory") == 0) {
             (void)options_size(&options, &c->memory_bytes);
         } else if (strcmp(argument, "--tile") == 0) {
@@ -83,6 +105,7 @@ static int parse(scene_command_t *c, int count, char **arguments) {
         }
     }
     if (options.failed) { return EXIT_USAGE; }
+    if (c->phase >= 0 && c->frames > 1) { return command_fail("--phase: is one frame, not %ld", c->frames), EXIT_USAGE; }
     return render_value_pattern("--out", c->out, c->frames) ? 0 : EXIT_USAGE;
 }
 
@@ -101,15 +124,30 @@ static int list(void) {
 }
 
 static int load(scene_command_t *c, player_config_t *config) {
-    const mesh_options_t options = {.tree = (c->script->methods >> TUILE_TREE & 1u) != 0};
+    const bool any = strcmp(c->script->model, "model") == 0; /* that one has a tree only when it is drawn by it */
+    const mesh_options_t options = {.tree = any ? c->method == TUILE_TREE : (c->script->methods >> TUILE_TREE & 1u) != 0};
     char path[4096];
     mesh_report_t report;
     sim_error_t error = {""};
+    if (any && !c->model) { return command_fail("scene %s: --model FILE tells which", c->name); }
     (void)snprintf(path, sizeof path, "%s/%s.tuile", c->models, c->script->model);
     if (mesh_load(c->model ? c->model : path, 0, &options, &c->bytes, &config->model_bytes, &report, &error) != 0) {
         return command_fail("%s%s", error.text, c->model ? "" : " (`make firmware-models` compiles the models of the scenes)");
     }
     config->model = c->bytes;
+    return 0;
+}
+
+/* What goes over the frames, if it was asked for. */
+static int open_caption(scene_command_t *c, player_config_t *config) {
+    size_t size_bytes;
+    sim_error_t error = {""};
+    if (!c->caption.show_rate && !c->caption.show_method) { return 0; }
+    if (font_load(NULL, &c->font, &size_bytes, &error) != 0) { return command_fail("%s", error.text); }
+    if (tuile_font_open(&c->caption.font, c->font, size_bytes) != TUILE_OK) { return command_fail("the font is damaged"); }
+    c->caption.method = c->method;
+    config->overlay = caption_draw;
+    config->overlay_context = &c->caption;
     return 0;
 }
 
@@ -128,7 +166,9 @@ static int set_up(scene_command_t *c) {
         return command_fail("--method %s: not for the scene %s; `tuile scene` lists which are", options_methods[c->method],
                             c->name);
     }
-    if (load(c, &config) != 0 || render_display_open(&c->where, &c->target, wire) != 0) { return EXIT_FAILURE; }
+    if (load(c, &config) != 0 || open_caption(c, &config) != 0 || render_display_open(&c->where, &c->target, wire) != 0) {
+        return EXIT_FAILURE;
+    }
     if (!target_is_simulated(&c->target) && (c->out || c->hash)) {
         return command_fail("%s: a real display cannot be looked at; leave out --out and --hash", c->target.config.text);
     }
@@ -154,7 +194,8 @@ static int draw(scene_command_t *c, unsigned number) {
     sim_picture_t seen = {0}, glass = {0};
     sim_error_t error = {""};
     char name[4096];
-    const int result = player_frame(&c->player, number);
+    int result = c->phase < 0 ? scene_frame(&c->player.stage, number) : scene_phase(&c->player.stage, (bam16_t)c->phase);
+    if (!result) { result = player_show(&c->player); }
     if (result == TUILE_ERROR_MEMORY) {
         return command_fail("frame %u: --memory: %zu bytes are too few for this method; %zu would do", number, c->memory_bytes,
                             c->player.wanted_bytes);
@@ -199,6 +240,7 @@ int command_scene(int count, char **arguments) {
     code = run(&c);
     target_close(&c.target);
     free(c.block);
+    free(c.font);
     free(c.bytes);
     return code;
 }

@@ -48,6 +48,66 @@ static void pictures_are_of_the_panel_s_size(void **state) {
     (void)unlink(cli_path("cube-1.ppm"));
 }
 
+static void phases_lie_between_frames(void **state) {
+    char *frame = cli_good("scene cube --models @ --first 5 --hash"),
+         *phase = cli_good("scene cube --models @ --phase 10240 --hash");
+    char *between = cli_good("scene cube --models @ --phase 11264 --hash"),
+         *next = cli_good("scene cube --models @ --first 6 --hash");
+    (void)state;
+    assert_string_equal(strrchr(frame, ' '), strrchr(phase, ' ')); /* a period of 32: 5 * 65536 / 32 */
+    assert_string_not_equal(strrchr(between, ' '), strrchr(phase, ' '));
+    assert_string_not_equal(strrchr(between, ' '), strrchr(next, ' '));
+    free(frame);
+    free(phase);
+    free(between);
+    free(next);
+}
+
+/* The corners are black where text may be and white in it; all else is as it was. The font has 6 by 10 dots. */
+static void captions_lie_in_the_corners(void **state) {
+    static const struct {
+        const char *options;
+        unsigned left, right; /* characters in either corner */
+    } cases[] = {
+        {"--show-rate 0", 8, 0}, {"--show-rate 12.3", 8, 0}, {"--show-rate 999.9 --show-method", 9, 7}, {"--show-method", 0, 7}};
+    sim_picture_t plain;
+    (void)state;
+    cli_good_silent("scene cube --models @ --panel ssd0323 --out @/plain.ppm");
+    assert_int_equal(sim_picture_read(&plain, cli_path("plain.ppm"), NULL), 0);
+    for (unsigned i = 0; i < CHECK_COUNT(cases); i++) {
+        char line[200];
+        sim_picture_t picture;
+        unsigned white[2] = {0, 0};
+        (void)snprintf(line, sizeof line, "scene cube --models @ --panel ssd0323 --out @/caption.ppm %s", cases[i].options);
+        cli_good_silent(line);
+        assert_int_equal(sim_picture_read(&picture, cli_path("caption.ppm"), NULL), 0);
+        for (unsigned y = 0; y < picture.height; y++) {
+            for (unsigned x = 0; x < picture.width; x++) {
+                const uint8_t *seen = picture.rgb + 3u * (y * picture.width + x), *was = plain.rgb + 3u * (y * picture.width + x);
+                const bool left = y < 10 && x < 6 * cases[i].left, right = y < 10 && x >= picture.width - 6 * cases[i].right;
+                assert_true(left || right ? seen[0] == 0 || seen[0] == 255 : memcmp(seen, was, 3) == 0);
+                if (left || right) { white[right] += seen[0] == 255; }
+            }
+        }
+        assert_int_equal(white[0] > 40, cases[i].left > 0);
+        assert_int_equal(white[1] > 40, cases[i].right > 0);
+        sim_picture_free(&picture);
+    }
+    sim_picture_free(&plain);
+    (void)unlink(cli_path("plain.ppm"));
+    (void)unlink(cli_path("caption.ppm"));
+}
+
+static void a_model_of_one_s_own_is_a_scene(void **state) {
+    char *own = cli_good("scene model --model @/torus.obj --hash"),
+         *tree = cli_good("scene model --model @/cube.obj --method tree --hash");
+    (void)state;
+    assert_non_null(strstr(own, "frame 0 "));
+    assert_non_null(strstr(tree, "frame 0 "));
+    free(own);
+    free(tree);
+}
+
 static void another_model_takes_the_place_of_the_scene_s(void **state) {
     char *own = cli_good("scene cube --model @/torus.obj --hash"), *cube = cli_good("scene cube --models @ --hash");
     (void)state;
@@ -64,6 +124,11 @@ static void wrong_scenes_are_told(void **state) {
     cli_fails("scene spider --models @", "spider.tuile", "firmware-models");
     cli_fails("scene cube --models @ --memory 1K", "--memory", "1024");
     cli_fails("scene cube --models @ --panel vt100", "vt100", NULL);
+    cli_fails("scene cube --models @ --phase 65536", "--phase", "65535");
+    cli_fails("scene cube --models @ --phase 1 --frames 2", "--phase", "2");
+    cli_fails("scene cube --models @ --show-rate 1000", "--show-rate", "999.9");
+    cli_fails("scene model", "--model", "model");
+    cli_fails("scene model --model @/none.obj", "none.obj", NULL);
     cli_fails("scene cube --models @ --frames 0", "--frames", NULL);
     cli_fails("scene cube --models @ --frames 2 --out @/x.png", "--out", NULL);
     cli_fails("scene cube --models @ --colour red", "--colour", NULL);
@@ -75,6 +140,9 @@ int main(void) {
         cmocka_unit_test(without_a_name_the_scenes_are_listed),
         cmocka_unit_test(frames_have_numbers_and_hashes),
         cmocka_unit_test(pictures_are_of_the_panel_s_size),
+        cmocka_unit_test(phases_lie_between_frames),
+        cmocka_unit_test(captions_lie_in_the_corners),
+        cmocka_unit_test(a_model_of_one_s_own_is_a_scene),
         cmocka_unit_test(another_model_takes_the_place_of_the_scene_s),
         cmocka_unit_test(wrong_scenes_are_told),
     };

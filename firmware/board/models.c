@@ -2,7 +2,7 @@
 
 #include "../../raster/geometry/model.h"
 
-extern const uint32_t model_cube[], model_room[], model_spider[], model_bunny[];
+extern const uint32_t model_cube[], model_room[], model_spider[], model_bunny[], model_model[];
 
 /* In the order of scenes[]. */
 static const uint32_t *const words[] = {
@@ -17,6 +17,9 @@ static const uint32_t *const words[] = {
 #endif
 #if SCENES & SCENE_BUNNY
     model_bunny,
+#endif
+#if SCENES & SCENE_MODEL
+    model_model,
 #endif
 };
 

@@ -1,0 +1,119 @@
+/* Parts of the demo that know no board: its button and its frame rate. */
+#include "support/check.h"
+
+#include "../firmware/button.h"
+#include "../firmware/caption.h"
+
+#define MS 1000u
+
+/* Looks from `from` to `end`, every `step`, at one level; the events that came, as digits of a number. */
+static unsigned look(button_t *button, bool pressed, uint32_t from, uint32_t end, uint32_t step) {
+    unsigned events = 0;
+    for (uint32_t at = 0; at < end - from; at += step) {
+        const button_event_t event = button_look(button, pressed, from + at);
+        if (event) { events = 10 * events + event; }
+    }
+    return events;
+}
+
+static void a_short_press_is_told_when_it_ends(void **state) {
+    static const uint32_t lengths[] = {20 * MS, 21 * MS, 80 * MS, 599 * MS};
+    (void)state;
+    for (unsigned i = 0; i < CHECK_COUNT(lengths); i++) {
+        button_t button = {0};
+        assert_int_equal(look(&button, false, 0, 50 * MS, MS), 0);
+        assert_int_equal(look(&button, true, 50 * MS, 50 * MS + lengths[i], MS), 0);
+        assert_int_equal(button_look(&button, false, 50 * MS + lengths[i]), BUTTON_SHORT);
+        assert_int_equal(look(&button, false, 51 * MS + lengths[i], 3000 * MS, MS), 0);
+    }
+}
+
+static void a_long_press_is_told_once_while_it_lasts(void **state) {
+    button_t button = {0};
+    (void)state;
+    assert_int_equal(look(&button, true, 0, 600 * MS, MS), 0);
+    assert_int_equal(button_look(&button, true, 600 * MS), BUTTON_LONG);
+    assert_int_equal(look(&button, true, 601 * MS, 5000 * MS, MS), 0);
+    assert_int_equal(look(&button, false, 5000 * MS, 6000 * MS, MS), 0);
+}
+
+/* 2 ms down, 1 ms up, and so on, for 18 ms after each change. */
+static void bouncing_is_one_press(void **state) {
+    button_t button = {0};
+    unsigned events = 0;
+    (void)state;
+    for (uint32_t at = 0; at < 400 * MS; at += MS / 2) {
+        const bool bounces = at % (200 * MS) < 18 * MS, down = at < 200 * MS;
+        const bool level = bounces && at / MS % 3 == 2 ? !down : down;
+        const button_event_t event = button_look(&button, level, at);
+        if (event) { events = 10 * events + event; }
+    }
+    assert_int_equal(events, BUTTON_SHORT);
+}
+
+/* A frame may take longer than a press. */
+static void rare_looks_see_a_press(void **state) {
+    button_t button = {0};
+    (void)state;
+    assert_int_equal(button_look(&button, false, 0), 0);
+    assert_int_equal(button_look(&button, true, 300 * MS), 0);
+    assert_int_equal(button_look(&button, false, 600 * MS), BUTTON_SHORT);
+    assert_int_equal(button_look(&button, true, 900 * MS), 0);
+    assert_int_equal(button_look(&button, true, 1800 * MS), BUTTON_LONG);
+    assert_int_equal(button_look(&button, false, 2000 * MS), 0);
+}
+
+/* The clock comes round after 71 minutes. */
+static void presses_are_told_apart_while_the_clock_wraps(void **state) {
+    static const uint32_t starts[] = {0, UINT32_MAX - 10 * MS, UINT32_MAX - 300 * MS, UINT32_MAX - 599 * MS};
+    (void)state;
+    for (unsigned i = 0; i < CHECK_COUNT(starts); i++) {
+        button_t button = {0};
+        const uint32_t start = starts[i];
+        assert_int_equal(look(&button, true, start, start + 100 * MS, MS), 0);
+        assert_int_equal(button_look(&button, false, start + 100 * MS), BUTTON_SHORT);
+        assert_int_equal(look(&button, false, start + 101 * MS, start + 300 * MS, MS), 0);
+        assert_int_equal(look(&button, true, start + 300 * MS, start + 1000 * MS, MS), BUTTON_LONG);
+        assert_int_equal(look(&button, false, start + 1000 * MS, start + 2000 * MS, MS), 0);
+        /* Just one round of the clock after the last change: not what bounces. */
+        assert_int_equal(button_look(&button, true, start + 1000 * MS + 5), 0);
+        assert_true(button.down);
+    }
+}
+
+static void rates_are_tenths_rounded_to_nearest(void **state) {
+    static const struct {
+        uint32_t frames, us;
+        unsigned rate;
+    } cases[] = {
+        {1, 1000000, 10},
+        {31, 1000000, 310},
+        {1, 3000000, 3},
+        {2, 3000000, 7},
+        {1, 199999, 50},
+        {1, 202020, 50},
+        {1, 202021, 49},
+        {1, 20000001, 1},
+        {1, UINT32_MAX, 1},
+        {1000, 1000000, 9999},
+        {1, 1, 9999},
+        {UINT32_MAX, 1, 9999},
+        {UINT32_MAX, UINT32_MAX, 9999},
+    };
+    (void)state;
+    for (unsigned i = 0; i < CHECK_COUNT(cases); i++) {
+        assert_int_equal(caption_rate(cases[i].frames, cases[i].us), cases[i].rate);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_short_press_is_told_when_it_ends),
+        cmocka_unit_test(a_long_press_is_told_once_while_it_lasts),
+        cmocka_unit_test(bouncing_is_one_press),
+        cmocka_unit_test(rare_looks_see_a_press),
+        cmocka_unit_test(presses_are_told_apart_while_the_clock_wraps),
+        cmocka_unit_test(rates_are_tenths_rounded_to_nearest),
+    };
+    return cmocka_run_group_tests_name("demo", tests, NULL, NULL);
+}
