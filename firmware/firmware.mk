@@ -33,49 +33,76 @@ $(FIRMWARE)/models/%.tuile: $(TUILE)
 firmware-models: $(FIRMWARE_MODELS:%=$(FIRMWARE)/models/%.tuile) ## the models of the scenes, for `tuile scene`
 
 # ---- programs -------------------------------------------------------------------------------------------------------
-# What every board builds, beside its own folder and BOARD_SRC. What it does not use is left out by the linker.
-FIRMWARE_SRC := $(wildcard raster/*.c raster/*/*.c hal/*.c firmware/*.c firmware/board/*.c)
+# frames is what tests run, demo what is put on a board: each a file with a main. What every board builds beside them, its own folder and
+# BOARD_SRC; what it does not use is left out by the linker.
+FIRMWARE_PROGRAMS := frames demo
+FIRMWARE_MAIN_frames := firmware/board/frames.c
+FIRMWARE_MAIN_demo := firmware/demo/demo.c
+FIRMWARE_SRC := $(filter-out $(FIRMWARE_MAIN_frames),$(wildcard raster/*.c raster/*/*.c hal/*.c firmware/*.c firmware/board/*.c))
 FIRMWARE_FLAGS := -std=c11 -Os -ffreestanding -ffunction-sections -fdata-sections -fstack-usage -fcallgraph-info=su,da $(WARN)
+
+# The letters of the demo's text.
+$(FIRMWARE)/font.c: sim/fonts/tuile-6x10.bdf $(TUILE)
+	@mkdir -p $(@D)
+	@echo "  font $@"; $(TUILE) font $< -o $@ --range 32,45-46,48-57,97-122 --name demo_font >/dev/null
 
 # $(call scene_bits,cube room): -DSCENES=(SCENE_CUBE|SCENE_ROOM), as firmware/scenes.h numbers them
 scene_bit_cube := 1
 scene_bit_room := 2
 scene_bit_spider := 4
 scene_bit_bunny := 8
+scene_bit_model := 16
 comma := ,
 empty :=
 scene_bits = -DSCENES=\($(subst $(empty) $(empty),+,$(foreach s,$(1),$(scene_bit_$(s))))\)
 
-# $(call firmware_program,FOLDER,BOARD,FLAGS): FOLDER/frames.elf, .bin and .hex from the board's sources, built with the flags.
+# $(call firmware_objects,FOLDER,BOARD): what all programs of a board are linked from.
+firmware_objects = $(patsubst %.c,$(1)/%.o,$(FIRMWARE_SRC) $(wildcard firmware/$(2)/*.c) $($(2)_SRC)) $(1)/firmware/font.o \
+                   $(patsubst %,$(1)/model_%.o,$($(2)_SCENES))
+
+# $(call firmware_compile,BOARD,FLAGS,SCENES), $(call firmware_data,BOARD,FLAGS), $(call firmware_link,BOARD,FLAGS): recipes. The last one
+# writes a map, a .bin and a .hex beside the target.
+define firmware_compile
+	@mkdir -p $(@D)
+	@echo "  $(1) $<"; $($(1)_TOOLS)gcc $(2) $(FIRMWARE_FLAGS) $(FIRMWARE_MORE) $(call scene_bits,$(3)) $($(1)_DEFINES) -MMD -MP -c $< -o $@
+endef
+define firmware_data
+	@mkdir -p $(@D)
+	@$($(1)_TOOLS)gcc $(2) -std=c11 -ffreestanding -fdata-sections -c $< -o $@
+endef
+define firmware_link
+	@echo "  $(1) $@"; $($(1)_TOOLS)gcc $(2) -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings -Wl,-Map,$(@:.elf=.map) \
+	  -T firmware/$(1)/link.ld $(filter %.o,$^) -lgcc -o $@
+	@$($(1)_TOOLS)objcopy -O binary $@ $(@:.elf=.bin)
+	@$($(1)_TOOLS)objcopy -O ihex $@ $(@:.elf=.hex)
+endef
+
+# $(call firmware_program,FOLDER,BOARD,FLAGS): FOLDER/frames.elf and FOLDER/demo.elf from the board's sources, built with the flags.
 define firmware_program
-$(1)/frames.elf: $$(patsubst %.c,$(1)/%.o,$$(FIRMWARE_SRC) $$(wildcard firmware/$(2)/*.c) $$($(2)_SRC)) \
-                 $$(patsubst %,$(1)/model_%.o,$$($(2)_SCENES)) firmware/$(2)/link.ld
-	@echo "  $(2) $$@"; $$($(2)_TOOLS)gcc $(3) -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings -Wl,-Map,$(1)/frames.map \
-	  -T firmware/$(2)/link.ld $$(filter %.o,$$^) -lgcc -o $$@
-	@$$($(2)_TOOLS)objcopy -O binary $$@ $(1)/frames.bin
-	@$$($(2)_TOOLS)objcopy -O ihex $$@ $(1)/frames.hex
-
+$(FIRMWARE_PROGRAMS:%=$(1)/%.elf): $$(call firmware_objects,$(1),$(2)) firmware/$(2)/link.ld
+	$$(call firmware_link,$(2),$(3))
+$(foreach p,$(FIRMWARE_PROGRAMS),$(1)/$(p).elf: $(FIRMWARE_MAIN_$(p):%.c=$(1)/%.o)
+)
 $(1)/model_%.o: $$(FIRMWARE)/models/%.c | toolchain-$(2)
-	@mkdir -p $$(@D)
-	@$$($(2)_TOOLS)gcc $(3) -std=c11 -ffreestanding -fdata-sections -c $$< -o $$@
-
+	$$(call firmware_data,$(2),$(3))
+$(1)/firmware/font.o: $$(FIRMWARE)/font.c | toolchain-$(2)
+	$$(call firmware_data,$(2),$(3))
 $(1)/firmware/board/memory.o: FIRMWARE_MORE := -fno-tree-loop-distribute-patterns
 $(1)/%.o: %.c Makefile firmware/firmware.mk firmware/$(2)/board.mk | toolchain-$(2)
-	@mkdir -p $$(@D)
-	@echo "  $(2) $$<"; $$($(2)_TOOLS)gcc $(3) $$(FIRMWARE_FLAGS) $$(FIRMWARE_MORE) $$(call scene_bits,$$($(2)_SCENES)) $$($(2)_DEFINES) -MMD -MP -c $$< -o $$@
+	$$(call firmware_compile,$(2),$(3),$$($(2)_SCENES))
 endef
 
 define firmware_board
 $(call firmware_program,$(FIRMWARE)/$(1),$(1),$($(1)_FLAGS))
 .PHONY: firmware-$(1) toolchain-$(1)
 firmware: firmware-$(1)
-firmware-$(1): $(FIRMWARE)/$(1)/frames.elf
-	@$($(1)_TOOLS)size $$<
+firmware-$(1): $(FIRMWARE_PROGRAMS:%=$(FIRMWARE)/$(1)/%.elf)
+	@$($(1)_TOOLS)size $(FIRMWARE_PROGRAMS:%=$(FIRMWARE)/$(1)/%.elf)
 toolchain-$(1): $(BUILD)/need/$($(1)_NEED)
 	@command -v $($(1)_TOOLS)gcc >/dev/null || { echo "$(1): $($(1)_TOOLS)gcc is not there, though its package is; look at PATH" >&2; exit 1; }
 endef
 $(foreach board,$(BOARDS),$(eval $(call firmware_board,$(board))))
 
-firmware: ## every board's program: elf, bin and hex in build/firmware/BOARD
+firmware: ## every board's programs: elf, bin and hex in build/firmware/BOARD
 firmware-%:
 	@echo "There is no board $*; there are: $(BOARDS)" >&2; exit 1

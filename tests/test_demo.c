@@ -1,8 +1,9 @@
-/* Parts of the demo that know no board: its button and its frame rate. */
+/* Parts of the demo that know no board: its button, its tour of scenes and methods, and its frame rate. */
 #include "support/check.h"
 
 #include "../firmware/button.h"
 #include "../firmware/caption.h"
+#include "../firmware/tour.h"
 
 #define MS 1000u
 
@@ -106,6 +107,94 @@ static void rates_are_tenths_rounded_to_nearest(void **state) {
     }
 }
 
+/* ---- which scene, by which method ---- */
+
+#define SECOND 1000000u
+
+static bool shows(const tour_t *tour, const char *scene, uint8_t method) {
+    return strcmp(scenes[tour->scene]->name, scene) == 0 && tour->method == method;
+}
+
+static void time_goes_through_all_pairs_in_order(void **state) {
+    tour_t tour;
+    uint32_t now = UINT32_MAX - 20 * SECOND;
+    (void)state;
+    tour_begin(&tour, TOUR_EVERY_US, now);
+    for (unsigned round = 0; round < 2; round++) {
+        for (unsigned scene = 0; scene < scene_count; scene++) {
+            for (uint8_t method = 0; method <= TUILE_TREE; method++) {
+                if (!(scenes[scene]->methods >> method & 1u)) { continue; }
+                assert_true(shows(&tour, scenes[scene]->name, method));
+                assert_false(tour_frame(&tour, BUTTON_NOTHING, now + 4999999));
+                assert_true(tour_frame(&tour, BUTTON_NOTHING, now + 5000000));
+                now += 5000000;
+            }
+        }
+    }
+}
+
+static void a_short_press_is_the_next_method_and_a_long_one_the_next_scene(void **state) {
+    static const struct {
+        button_event_t event;
+        const char *scene;
+        uint8_t method;
+    } presses[] = {
+        {BUTTON_SHORT, "cube", TUILE_SCANLINE},  {BUTTON_SHORT, "cube", TUILE_WARNOCK},    {BUTTON_LONG, "room", TUILE_ZBUFFER},
+        {BUTTON_LONG, "spider", TUILE_ZBUFFER},  {BUTTON_SHORT, "spider", TUILE_SCANLINE}, {BUTTON_SHORT, "spider", TUILE_WARNOCK},
+        {BUTTON_SHORT, "spider", TUILE_PAINTER}, {BUTTON_SHORT, "bunny", TUILE_ZBUFFER}, /* spiders have no tree */
+        {BUTTON_LONG, "model", TUILE_ZBUFFER},   {BUTTON_LONG, "cube", TUILE_ZBUFFER},
+    };
+    tour_t tour;
+    (void)state;
+    tour_begin(&tour, TOUR_EVERY_US, 0);
+    for (unsigned i = 0; i < CHECK_COUNT(presses); i++) {
+        assert_true(tour_frame(&tour, presses[i].event, (i + 1) * SECOND));
+        assert_true(shows(&tour, presses[i].scene, presses[i].method));
+    }
+    /* Who presses is left alone for half a minute. */
+    assert_false(tour_frame(&tour, BUTTON_NOTHING, 10 * SECOND + TOUR_BY_HAND_US - 1));
+    assert_true(tour_frame(&tour, BUTTON_NOTHING, 10 * SECOND + TOUR_BY_HAND_US));
+    assert_false(tour_frame(&tour, BUTTON_NOTHING, 10 * SECOND + TOUR_BY_HAND_US + TOUR_EVERY_US - 1));
+    assert_true(tour_frame(&tour, BUTTON_NOTHING, 10 * SECOND + TOUR_BY_HAND_US + TOUR_EVERY_US));
+}
+
+static void what_cannot_be_drawn_is_left_out(void **state) {
+    unsigned pairs = 0, tries;
+    tour_t tour;
+    (void)state;
+    for (unsigned scene = 0; scene < scene_count; scene++) {
+        pairs += (unsigned)__builtin_popcount(scenes[scene]->methods);
+    }
+    tour_begin(&tour, TOUR_EVERY_US, 0);
+    assert_true(tour_skip(&tour, SECOND));
+    assert_true(shows(&tour, "cube", TUILE_SCANLINE));
+    assert_false(tour_frame(&tour, BUTTON_NOTHING, 2 * SECOND));
+    for (tries = 1; tour_skip(&tour, 3 * SECOND); tries++) {
+        assert_true(tries < 100);
+    }
+    assert_true(tries >= pairs); /* since the last frame each has had its turn */
+}
+
+static void a_rate_is_a_mean_over_half_a_second_of_one_scene(void **state) {
+    tour_t tour;
+    (void)state;
+    tour_begin(&tour, TOUR_EVERY_US, 7);
+    for (unsigned frame = 1; frame < 25; frame++) {
+        (void)tour_frame(&tour, BUTTON_NOTHING, 7 + frame * 20000);
+        assert_int_equal(tour.rate, 0);
+    }
+    (void)tour_frame(&tour, BUTTON_NOTHING, 7 + 500000);
+    assert_int_equal(tour.rate, 500); /* 25 frames in half a second */
+    (void)tour_frame(&tour, BUTTON_NOTHING, 7 + 500000 + 400000);
+    assert_int_equal(tour.rate, 500);
+    (void)tour_frame(&tour, BUTTON_NOTHING, 7 + 500000 + 800000);
+    assert_int_equal(tour.rate, 25); /* 2 in 0.8 s */
+    (void)tour_frame(&tour, BUTTON_SHORT, 7 + 1500000);
+    assert_int_equal(tour.rate, 0);
+    (void)tour_frame(&tour, BUTTON_NOTHING, 7 + 1500000 + 1000000);
+    assert_int_equal(tour.rate, 10);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_short_press_is_told_when_it_ends),
@@ -114,6 +203,10 @@ int main(void) {
         cmocka_unit_test(rare_looks_see_a_press),
         cmocka_unit_test(presses_are_told_apart_while_the_clock_wraps),
         cmocka_unit_test(rates_are_tenths_rounded_to_nearest),
+        cmocka_unit_test(time_goes_through_all_pairs_in_order),
+        cmocka_unit_test(a_short_press_is_the_next_method_and_a_long_one_the_next_scene),
+        cmocka_unit_test(what_cannot_be_drawn_is_left_out),
+        cmocka_unit_test(a_rate_is_a_mean_over_half_a_second_of_one_scene),
     };
     return cmocka_run_group_tests_name("demo", tests, NULL, NULL);
 }

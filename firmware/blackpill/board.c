@@ -8,7 +8,8 @@
 #include "stm32f411.h"
 
 #define BLOCK_BYTES (96u * 1024u)
-#define PIN_TX 9u /* of port A */
+#define PIN_TX 9u     /* of port A */
+#define PIN_BUTTON 0u /* likewise: KEY, to ground */
 #define BAUD 115200u
 
 static _Alignas(8) uint8_t block[BLOCK_BYTES];
@@ -55,12 +56,29 @@ static void open_usart(void) {
     USART1_CR1 = USART_CR1_TRANSMIT;
 }
 
+static void open_clock(void) {
+    RCC_APB1ENR |= 1u << 3;
+    (void)RCC_APB1ENR;
+    TIM5_PSC = CORE_HZ / 1000000u - 1u;
+    TIM5_EGR = TIM_EGR_UPDATE;
+    TIM5_CR1 = TIM_CR1_ENABLE;
+}
+
+uint32_t board_clock_us(void) { return TIM5_CNT; }
+
+/* An input after reset; port A has its clock already. */
+static void open_button(void) { GPIOA_PUPDR |= PULL_UP << 2u * PIN_BUTTON; }
+
+bool board_button(void) { return !(GPIOA_IDR >> PIN_BUTTON & 1u); }
+
 const tuile_display_config_t *board_display(void) {
     static tuile_bus_t bus;
     static const tuile_display_config_t config = {.bus = &bus, .panel = &tuile_st7789_240x240, .pixel_clock_hz = 50000000};
 
     open_clocks();
     open_usart();
+    open_clock();
+    open_button();
     spi_open(&bus);
     return &config;
 }

@@ -4,5 +4,5 @@ blackpill_NEED := arm
 blackpill_FLAGS := -mcpu=cortex-m4 -mthumb -mfloat-abi=soft
 blackpill_STACK := 8160 # bytes: link.ld's room without the guard
 blackpill_SCENES := cube room spider bunny
-blackpill_DEFINES := -DTUILE_FEATURES=64 -DTUILE_FORMATS=1
+blackpill_DEFINES := -DTUILE_FEATURES=576 -DTUILE_FORMATS=1
 blackpill_SRC := $(wildcard firmware/cortex_m/*.c) hal/panels/st7789.c

@@ -11,7 +11,7 @@
 #define RCC_PLLCFGR REGISTER(0x40023804u)
 #define RCC_CFGR REGISTER(0x40023808u)
 #define RCC_AHB1ENR REGISTER(0x40023830u) /* bit 0 port A, bit 22 DMA2 */
-#define RCC_APB1ENR REGISTER(0x40023840u) /* bit 28 PWR */
+#define RCC_APB1ENR REGISTER(0x40023840u) /* bit 3 TIM5, bit 28 PWR */
 #define RCC_APB2ENR REGISTER(0x40023844u) /* bit 4 USART1, bit 12 SPI1 */
 #define RCC_CR_HSEON (1u << 16)
 #define RCC_CR_HSERDY (1u << 17)
@@ -35,12 +35,15 @@
 /* Port A (8.4). */
 #define GPIOA_MODER REGISTER(0x40020000u)
 #define GPIOA_OSPEEDR REGISTER(0x40020008u)
+#define GPIOA_PUPDR REGISTER(0x4002000cu)
+#define GPIOA_IDR REGISTER(0x40020010u)
 #define GPIOA_BSRR REGISTER(0x40020018u) /* low half sets, high half clears */
 #define GPIOA_AFRL REGISTER(0x40020020u)
 #define GPIOA_AFRH REGISTER(0x40020024u)
 #define MODE_OUTPUT 1u
 #define MODE_FUNCTION 2u
 #define SPEED_HIGH 3u
+#define PULL_UP 1u
 #define FUNCTION_SPI1 5u
 #define FUNCTION_USART1 7u
 
@@ -80,6 +83,14 @@
 #define USART1_CR1 REGISTER(0x4001100cu)
 #define USART_SR_TXE (1u << 7)
 #define USART_CR1_TRANSMIT (1u << 13 | 1u << 3)
+
+/* TIM5, of 32 bits (13.4), on APB1: its clock is twice that bus's, as the bus is divided (6.2). */
+#define TIM5_CR1 REGISTER(0x40000c00u)
+#define TIM5_EGR REGISTER(0x40000c14u)
+#define TIM5_CNT REGISTER(0x40000c24u)
+#define TIM5_PSC REGISTER(0x40000c28u)
+#define TIM_CR1_ENABLE 1u
+#define TIM_EGR_UPDATE 1u /* takes the prescaler over */
 
 /* Of the core (DDI 0403, B3.3 and B3.4). */
 #define SYST_CSR REGISTER(0xe000e010u)

@@ -34,6 +34,12 @@ void board_shown(void);
 /* What the program was started with, "name=value name=value", "" without: at most size_bytes with the zero behind it. */
 void board_options(char *text, size_t size_bytes);
 
+/* Microseconds, once board_display has been called; it wraps. Called every five minutes at least, it misses none. */
+uint32_t board_clock_us(void);
+
+/* Is the button pressed? It bounces (firmware/button.h). Never, where there is none. */
+bool board_button(void);
+
 /* Bytes of stack used at most since the start, and the room that there is. Both 0 where nobody has painted it. Parks with
  * BOARD_STACK_GUARD when the guard is gone. */
 size_t board_stack_used(void);

@@ -7,6 +7,7 @@
 #include "ssi.h"
 
 #define BLOCK_BYTES (48u * 1024u)
+#define PIN_BUTTON (1u << 1) /* of port F: the board's select switch, to ground */
 
 static _Alignas(8) uint8_t block[BLOCK_BYTES];
 
@@ -34,10 +35,47 @@ static void open_uart(void) {
     UART0_CTL = UART_CTL_ENABLE;
 }
 
+/* The watchdog is the one counter of 32 bits that runs by itself and that QEMU has too: its SysTick and general-purpose timers are
+ * shorter or cannot be read. */
+static void open_clock(void) {
+    RCGC0 |= 1u << 3;
+    (void)RCGC0;
+    (void)RCGC0;
+    WDT_LOAD = UINT32_MAX;
+    WDT_CTL = WDT_CTL_INTEN;
+}
+
+/* As exact as the oscillator, which is not (CORE_HZ). */
+uint32_t board_clock_us(void) {
+    static uint32_t before, us, rest;
+    const uint32_t now = ~WDT_VALUE, cycles = now - before;
+
+    us += cycles / (CORE_HZ / 1000000u);
+    rest += cycles % (CORE_HZ / 1000000u);
+    if (rest >= CORE_HZ / 1000000u) {
+        rest -= CORE_HZ / 1000000u;
+        us++;
+    }
+    before = now;
+    return us;
+}
+
+static void open_button(void) {
+    RCGC2 |= 1u << 5;
+    (void)RCGC2;
+    (void)RCGC2;
+    GPIO_PUR(PORT_F) |= PIN_BUTTON;
+    GPIO_DEN(PORT_F) |= PIN_BUTTON;
+}
+
+bool board_button(void) { return !(GPIO_DATA(PORT_F, PIN_BUTTON) & PIN_BUTTON); }
+
 const tuile_display_config_t *board_display(void) {
     static tuile_bus_t bus;
     static const tuile_display_config_t config = {.bus = &bus, .panel = &tuile_ssd0323};
 
+    open_clock();
+    open_button();
     open_uart();
     ssi_open(&bus);
     return &config;

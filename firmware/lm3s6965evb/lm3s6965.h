@@ -8,16 +8,19 @@
 #define REGISTER(address) (*(volatile uint32_t *)(address))
 
 /* System Control */
+#define RCGC0 REGISTER(0x400fe100u) /* clocks: bit 3 watchdog */
 #define RCGC1 REGISTER(0x400fe104u) /* clocks: bit 0 UART0, bit 4 SSI0 */
-#define RCGC2 REGISTER(0x400fe108u) /* clocks: bit 0 port A, bit 2 port C, bit 3 port D */
+#define RCGC2 REGISTER(0x400fe108u) /* clocks: bit 0 port A, bit 2 port C, bit 3 port D, bit 5 port F */
 
 /* General-Purpose Input/Outputs. The address of a data register carries a mask of the pins that are written, in bits 9 to 2. */
 #define PORT_A 0x40004000u
 #define PORT_C 0x40006000u
 #define PORT_D 0x40007000u
+#define PORT_F 0x40025000u
 #define GPIO_DATA(port, pins) REGISTER((port) + ((uint32_t)(pins) << 2))
 #define GPIO_DIR(port) REGISTER((port) + 0x400u)
 #define GPIO_AFSEL(port) REGISTER((port) + 0x420u) /* the pin belongs to a peripheral */
+#define GPIO_PUR(port) REGISTER((port) + 0x510u)   /* it is pulled up */
 #define GPIO_DEN(port) REGISTER((port) + 0x51cu)   /* it is a digital pin */
 
 /* Synchronous Serial Interface 0 (DDI 0194, 3.3.1 to 3.3.5) */
@@ -51,6 +54,12 @@
 #define SYST_CSR_ENABLE 1u
 #define SYST_CSR_CORE 4u /* counts the core's clock */
 #define SYST_CSR_COUNTFLAG 0x10000u
+
+/* Watchdog Timer: counts down at the core's clock, and begins again; unless it is told to, it resets nothing. */
+#define WDT_LOAD REGISTER(0x40000000u)
+#define WDT_VALUE REGISTER(0x40000004u)
+#define WDT_CTL REGISTER(0x40000008u)
+#define WDT_CTL_INTEN 1u /* it counts; its interrupt is not let in */
 
 /* After reset the core runs by the internal oscillator, which has 12 MHz to within 30 % (System Control, clock sources). */
 #define CORE_HZ 12000000u

@@ -4,7 +4,7 @@ pico_NEED := pico
 pico_FLAGS := -mcpu=cortex-m0plus $(FIRMWARE_V6M)
 pico_STACK := 8160 # bytes: link.ld's room without the guard
 pico_SCENES := cube room spider bunny
-pico_DEFINES := -DTUILE_FEATURES=64 -DTUILE_FORMATS=1
+pico_DEFINES := -DTUILE_FEATURES=576 -DTUILE_FORMATS=1
 pico_BOOT2 := $(BUILD)/firmware/pico-boot2
 pico_SRC := $(wildcard firmware/cortex_m/*.c firmware/rp2/*.c) hal/panels/ili9341.c hal/panels/st7789.c $(pico_BOOT2).c
 
@@ -21,7 +21,7 @@ $(pico_BOOT2).c: firmware/pico/boot2.S firmware/pico/boot2.py $(BUILD)/need/pico
 pico_FOLDER := $(BUILD)/firmware/pico
 pico_MORE := $(BUILD)/firmware/pico-more
 pico_MUTANTS := $(patsubst %,$(pico_MORE)/mutant_%.elf,1 2 3 4)
-pico_OBJ = $(patsubst %.c,$(pico_FOLDER)/%.o,$(FIRMWARE_SRC) $(pico_SRC)) $(patsubst %,$(pico_FOLDER)/model_%.o,$(pico_SCENES))
+pico_OBJ = $(call firmware_objects,$(pico_FOLDER),pico) $(pico_FOLDER)/firmware/board/frames.o
 
 # $(call pico_relink,WITHOUT): the objects of frames.elf but some, with others in their place.
 define pico_relink
@@ -53,10 +53,11 @@ $(pico_MORE)/clocks.o: firmware/rp2/clocks.c
 firmware-pico: $(pico_MORE)/two_cores.elf
 
 # ---- onto a board ----
-$(pico_FOLDER)/frames.uf2: $(pico_FOLDER)/frames.elf firmware/rp2/uf2.py
+pico_UF2 := $(pico_FOLDER)/frames.uf2 $(pico_FOLDER)/demo.uf2
+$(pico_UF2): %.uf2: %.elf firmware/rp2/uf2.py
 	@python3 firmware/rp2/uf2.py e48bff56 10000000 $(<:.elf=.bin) $@
-firmware-pico: $(pico_FOLDER)/frames.uf2
+firmware-pico: $(pico_UF2)
 
 .PHONY: flash-pico
-flash-pico: $(pico_FOLDER)/frames.uf2 ## puts the Pico's program on a board: by its volume RPI-RP2 if that is mounted, else by openocd
-	@sh firmware/rp2/flash.sh RPI-RP2 rp2040 $(pico_FOLDER)/frames.elf $<
+flash-pico: $(pico_FOLDER)/demo.uf2 ## puts the Pico's demo on a board: by its volume RPI-RP2 if that is mounted, else by openocd
+	@sh firmware/rp2/flash.sh RPI-RP2 rp2040 $(<:.uf2=.elf) $<

@@ -5,24 +5,25 @@ pico2_NEED := pico
 pico2_FLAGS := -mcpu=cortex-m33 -mthumb -mfloat-abi=soft -DRP2350
 pico2_STACK := 8160 # bytes: link.ld's room without the guard
 pico2_SCENES := cube room spider bunny
-pico2_DEFINES := -DTUILE_FEATURES=64 -DTUILE_FORMATS=1
+pico2_DEFINES := -DTUILE_FEATURES=576 -DTUILE_FORMATS=1
 pico2_SRC := $(wildcard firmware/cortex_m/*.c firmware/rp2/*.c) hal/panels/ili9341.c hal/panels/st7789.c
 
 pico2_FOLDER := $(BUILD)/firmware/pico2
-$(pico2_FOLDER)/frames.uf2: $(pico2_FOLDER)/frames.elf firmware/rp2/uf2.py
+pico2_UF2 := $(pico2_FOLDER)/frames.uf2 $(pico2_FOLDER)/demo.uf2
+$(pico2_UF2): %.uf2: %.elf firmware/rp2/uf2.py
 	@python3 firmware/rp2/uf2.py e48bff59 10000000 $(<:.elf=.bin) $@
-firmware-pico2: $(pico2_FOLDER)/frames.uf2
+firmware-pico2: $(pico2_UF2)
 
 .PHONY: flash-pico2
-flash-pico2: $(pico2_FOLDER)/frames.uf2 ## likewise the Pico 2's: volume RP2350
-	@sh firmware/rp2/flash.sh RP2350 rp2350 $(pico2_FOLDER)/frames.elf $<
+flash-pico2: $(pico2_FOLDER)/demo.uf2 ## likewise the Pico 2's: volume RP2350
+	@sh firmware/rp2/flash.sh RP2350 rp2350 $(<:.uf2=.elf) $<
 
 # ---- both cores (firmware/rp2/programs/two_cores.c) ----
 pico2_MORE := $(BUILD)/firmware/pico2-more
-pico2_OBJ = $(patsubst %.c,$(pico2_FOLDER)/%.o,$(FIRMWARE_SRC) $(wildcard firmware/pico2/*.c) $(pico2_SRC)) $(patsubst %,$(pico2_FOLDER)/model_%.o,$(pico2_SCENES))
+pico2_OBJ = $(call firmware_objects,$(pico2_FOLDER),pico2)
 $(pico2_MORE)/two_cores.elf: $(pico2_MORE)/two_cores.o $(pico2_MORE)/clocks.o $(pico2_FOLDER)/frames.elf
 	@echo "  pico2 $@"; $(pico2_TOOLS)gcc $(pico2_FLAGS) -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings \
-	  -T firmware/pico2/link.ld $(filter-out %/firmware/board/frames.o %/firmware/rp2/clocks.o,$(pico2_OBJ)) $(filter %.o,$^) -lgcc -o $@
+	  -T firmware/pico2/link.ld $(filter-out %/firmware/rp2/clocks.o,$(pico2_OBJ)) $(filter %.o,$^) -lgcc -o $@
 $(pico2_MORE)/two_cores.o: firmware/rp2/programs/two_cores.c
 $(pico2_MORE)/clocks.o: firmware/rp2/clocks.c
 $(pico2_MORE)/two_cores.o $(pico2_MORE)/clocks.o:

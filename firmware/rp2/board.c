@@ -1,6 +1,7 @@
 /* Raspberry Pi Pico and Pico 2: a panel on SPI0 (port.h), lines by UART0 on GP0 at 115 200 baud.
  *
- * Options are a text in the last sector of a flash of 2 MB, ended by a zero or by erased flash. panel=NAME chooses the panel. */
+ * A button between GP15 and ground is seen. Options are a text in the last sector of a flash of 2 MB, ended by a zero or by erased
+ * flash. panel=NAME chooses the panel. */
 #include "../board/board.h"
 #include "../board/line.h"
 #include "../board/models.h"
@@ -18,6 +19,7 @@
 #define OPTIONS_BYTES 128u
 #define PIXEL_CLOCK_HZ 62500000u /* beyond what the panels' data sheets promise; modules and short wires take it */
 #define PIN_UART_TX 0u
+#define PIN_BUTTON 15u /* to ground */
 #define BAUD 115200u
 
 extern const volatile uint8_t options_text[]; /* of the linker script */
@@ -43,6 +45,15 @@ static void open_uart(void) {
     GPIO_CTRL(PIN_UART_TX) = FUNCTION_UART;
     PAD(PIN_UART_TX) = PAD_4MA | PAD_IN | PAD_SCHMITT;
 }
+
+uint32_t board_clock_us(void) { return TIMER_RAWL; }
+
+static void open_button(void) {
+    GPIO_CTRL(PIN_BUTTON) = FUNCTION_SIO;
+    PAD(PIN_BUTTON) = PAD_IN | PAD_PULL_UP | PAD_SCHMITT;
+}
+
+bool board_button(void) { return !(SIO_IN >> PIN_BUTTON & 1u); }
 
 static bool names(const char *value, const char *name) {
     while (*name && *value == *name) {
@@ -73,6 +84,7 @@ const tuile_display_config_t *board_display(void) {
     clocks_open();
     port_open(&bus);
     open_uart();
+    open_button();
     config.panel = find_panel();
     return &config;
 }

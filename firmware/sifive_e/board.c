@@ -5,6 +5,9 @@
 #include "../board/wire_file.h"
 #include "../../hal/panels/ili9341.h"
 
+#define MTIME_LOW (*(volatile uint32_t *)0x0200bff8u)
+#define MTIME_HIGH (*(volatile uint32_t *)0x0200bffcu)
+
 #define BLOCK_BYTES (10u * 1024u)
 
 static _Alignas(8) uint8_t block[BLOCK_BYTES];
@@ -15,6 +18,20 @@ void *board_block(size_t *size_bytes) {
 }
 
 const void *board_model(const scene_script_t *script, size_t *size_bytes) { return models_find(script, size_bytes); }
+
+/* mtime counts the periods of a crystal of 32 768 Hz (FE310-G000 manual, CLINT): 512 of them are 15 625 us. It is two words, and
+ * the upper one may move between looks at the two. */
+uint32_t board_clock_us(void) {
+    uint32_t high, low;
+
+    do {
+        high = MTIME_HIGH;
+        low = MTIME_LOW;
+    } while (high != MTIME_HIGH);
+    return (uint32_t)((((uint64_t)high << 32 | low) * 15625u) >> 9);
+}
+
+bool board_button(void) { return false; } /* there is none */
 
 const tuile_display_config_t *board_display(void) {
     static tuile_bus_t bus;

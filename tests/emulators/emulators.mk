@@ -2,7 +2,9 @@
 
 EMULATORS := tests/emulators
 PYTHON := PYTHONDONTWRITEBYTECODE=1 python3
-STACK = $(PYTHON) $(EMULATORS)/stack.py $(1)/frames.elf $(1) --tools $($(2)_TOOLS) --calls firmware/calls
+# $(call STACK,FOLDER,BOARD,PROGRAM): PROGRAM is frames where it is left out.
+STACK = $(PYTHON) $(EMULATORS)/stack.py $(1)/$(or $(3),frames).elf $(1) --tools $($(2)_TOOLS) --calls firmware/calls \
+        --without $(filter-out $(or $(3),frames),$(FIRMWARE_PROGRAMS))
 
 $(OBJ)/wire_trace: $(OBJ)/tests/emulators/wire_trace.o $(SIM_LIB_OBJ) $(CORE_OBJ)
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
@@ -17,12 +19,14 @@ size-firmware: $(BOARDS:%=size-firmware-%) ## flash and RAM of each board's prog
 stack: $(BOARDS:%=stack-%) ## the deepest stack that each board's program may take, against its room
 
 define emulated_figures
-size-firmware-$(1): $(FIRMWARE)/$(1)/frames.elf $(BUILD)/need/emulators
-	@echo "$(1), bytes:"
-	@$$(PYTHON) $(EMULATORS)/image.py $$< $(FIRMWARE)/$(1)/frames.map --tools $($(1)_TOOLS) --budget firmware/$(1)/budget
-stack-$(1): $(FIRMWARE)/$(1)/frames.elf $(BUILD)/need/emulators
-	@echo "$(1):"
+size-firmware-$(1): $(FIRMWARE_PROGRAMS:%=$(FIRMWARE)/$(1)/%.elf) $(BUILD)/need/emulators
+	@for p in $(FIRMWARE_PROGRAMS); do echo "$(1) $$$$p, bytes:"; \
+	  $$(PYTHON) $(EMULATORS)/image.py $(FIRMWARE)/$(1)/$$$$p.elf $(FIRMWARE)/$(1)/$$$$p.map --tools $($(1)_TOOLS) --budget firmware/$(1)/budget || exit 1; done
+stack-$(1): $(FIRMWARE_PROGRAMS:%=$(FIRMWARE)/$(1)/%.elf) $(BUILD)/need/emulators
+	@echo "$(1) frames:"
 	@$$(call STACK,$(FIRMWARE)/$(1),$(1)) --room $($(1)_STACK)
+	@echo "$(1) demo:"
+	@$$(call STACK,$(FIRMWARE)/$(1),$(1),demo) --room $($(1)_STACK)
 endef
 $(foreach board,$(BOARDS),$(eval $(call emulated_figures,$(board))))
 

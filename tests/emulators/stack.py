@@ -1,8 +1,8 @@
 """The most bytes of stack that a program may take, from what gcc wrote beside its objects (-fcallgraph-info=su).
 
-    stack.py IMAGE FOLDER --tools PREFIX --calls FILE [--room BYTES] [--entry NAME]
+    stack.py IMAGE FOLDER --tools PREFIX --calls FILE [--room BYTES] [--entry NAME] [--without NAME ...]
 
-FOLDER holds the .ci files of the image's objects. Only functions that are in the image count. Functions that gcc has not compiled
+FOLDER holds the .ci files of the image's objects; those of objects NAME, which belong to other images, are left out. Only functions that are in the image count. Functions that gcc has not compiled
 (libgcc's) are read from the disassembly. A call through a pointer goes to every function that the sources assign to a field of that
 name, `.field = function` or `->field = function`; FILE says so where that is not enough, a line each:
 
@@ -188,13 +188,14 @@ def main():
     parser.add_argument("--calls", required=True)
     parser.add_argument("--entry", default="reset")
     parser.add_argument("--room", type=int)
+    parser.add_argument("--without", nargs="*", default=[], help="objects of other images, without .o")
     parser.add_argument("--quiet", action="store_true", help="prints the bytes alone")
     arguments = parser.parse_args()
 
     graph = Graph()
     for at, _, names in os.walk(arguments.folder):
         for name in names:
-            if name.endswith(".ci"):
+            if name.endswith(".ci") and name[:-3] not in arguments.without:
                 graph.read(os.path.join(at, name))
     in_image = disassembled(arguments.image, arguments.tools)
     present = {base(name) for name in in_image}
