@@ -65,9 +65,9 @@ define need
 	@mkdir -p $(@D) && touch $@
 endef
 
-.PHONY: golden help all demo test test-asan test-clang check bench bench-methods bench-instances bench-linux docs-pictures gallery install-udev size size-arm format format-check lint clean
+.PHONY: golden help all demo test test-asan test-clang check docs-pictures gallery install-udev size size-arm format format-check lint clean
 help: ## this list
-	@grep -hE '^[a-z0-9_-]+:.*##' Makefile tests/linux/linux.mk firmware/firmware.mk tests/emulators/emulators.mk firmware/uno/uno.mk tests/emulators/uno.mk firmware/pico/board.mk firmware/pico2/board.mk tests/emulators/pico.mk tests/tsan.mk | sed 's/:.*##/\t/' | expand -t 16
+	@grep -hE '^[a-z0-9_-]+:.*##' Makefile tests/linux/linux.mk firmware/firmware.mk tests/emulators/emulators.mk firmware/uno/uno.mk tests/emulators/uno.mk firmware/pico/board.mk firmware/pico2/board.mk tests/emulators/pico.mk tests/bench/bench.mk tests/tsan.mk | sed 's/:.*##/\t/' | expand -t 16
 
 all: $(TUILE) ## build the simulator, build/tuile
 
@@ -76,7 +76,6 @@ $(BUILD)/need/sim: ; $(call need,$(SIM_PACKAGES),model import + simplification +
 $(BUILD)/need/test: ; $(call need,libcmocka-dev umockdev libumockdev-dev pkg-config,tests)
 $(BUILD)/need/mesa: ; $(call need,libosmesa6-dev,a second renderer to compare with)
 $(BUILD)/need/clang: ; $(call need,clang libclang-rt-14-dev,a second compiler)
-$(BUILD)/need/bench: ; $(call need,valgrind,instruction counts)
 $(BUILD)/need/lint: ; $(call need,clang-tidy cppcheck,static analysis)
 $(BUILD)/need/arm: ; $(call need,gcc-arm-none-eabi,code sizes on Cortex-M)
 $(BUILD)/need/format: ; $(call need,clang-format,formatting)
@@ -139,7 +138,7 @@ $(OBJ)/fuzz_%: $(OBJ)/tests/fuzz_%.o $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -o $@
 
 .SECONDARY:
--include $(shell find $(BUILD) -path $(BUILD)/linux -prune -o -name '*.d' -print 2>/dev/null)
+-include $(shell find $(BUILD) \( -path $(BUILD)/linux -o -path $(BUILD)/bench/base \) -prune -o -name '*.d' -print 2>/dev/null)
 
 # ---- models from Debian packages: downloaded and unpacked under build/, not installed ------------------------------
 MODELS := $(BUILD)/models
@@ -208,60 +207,9 @@ objects: $(CORE_OBJ)
 
 include tests/linux/linux.mk
 include firmware/firmware.mk firmware/uno/uno.mk
-include tests/emulators/emulators.mk tests/emulators/pico.mk tests/emulators/uno.mk tests/tsan.mk
+include tests/emulators/emulators.mk tests/emulators/pico.mk tests/emulators/uno.mk tests/bench/bench.mk tests/tsan.mk
 
 # ---- figures -------------------------------------------------------------------------------------------------------
-SIZE ?= 320x240
-TILE ?= 320x24 32x32 320x240
-MODEL ?= $(SPIDER) $(BUNNY_6000)
-$(OBJ)/bench $(OBJ)/guest_scene: $(OBJ)/tests/bench/turntable.o
-$(OBJ)/guest_scene: $(OBJ)/tests/bench/qemu/guest_scene.o $(SIM_LIB_OBJ) $(CORE_OBJ)
-	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
-$(OBJ)/bench: $(OBJ)/tests/bench/bench.o $(SIM_LIB_OBJ) $(CORE_OBJ)
-	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
-
-TARGETS ?= x86-64 cortex-m0plus cortex-m3 cortex-m4 cortex-m33 rv32imac
-$(BUILD)/need/bench-targets: ; $(call need,qemu-system-arm qemu-system-misc gcc-arm-none-eabi gcc-riscv64-unknown-elf,instruction counts on microcontrollers)
-bench: $(OBJ)/bench $(OBJ)/guest_scene $(BUILD)/need/bench $(if $(filter-out x86-64,$(TARGETS)),$(BUILD)/need/bench-targets) $(filter $(BUILD)/%,$(MODEL)) ## instructions per frame by callgrind and QEMU; MODEL=FILE ... TILE=WxH ... SIZE=WxH TARGETS=...
-	@TARGETS="$(TARGETS)" sh tests/bench/bench.sh $(OBJ)/bench $(OBJ)/guest_scene $(BUILD)/bench $(SIZE) $(TILE) -- $(MODEL)
-
-# Four scenes, each compiled without and with a display tree: NAME[@EYE@AT@FOV], model units.
-HOUSE := $(dir $(SPIDER))../IFC/AC14-FZK-Haus.ifc
-METHODS_SCENES := sphere spider room@0,1.2,1.7@0,1,0@70 house@17,8,10@6,2,-5@45
-METHODS_TILE ?= 320x24
-COMPARED := $(BUILD)/bench/methods
-COMPARED_MODELS := $(foreach n,sphere spider room house,$(COMPARED)/$(n).tuile $(COMPARED)/$(n)-tree.tuile)
-$(OBJ)/sphere: $(OBJ)/tests/bench/sphere.o
-	@echo "  link $@"; $(CC) $(LDFLAGS) $^ -lm -o $@
-$(HOUSE): $(SPIDER) ;
-$(COMPARED)/sphere.obj: $(OBJ)/sphere
-	@mkdir -p $(@D) && $< >$@
-$(COMPARED)/sphere.tuile $(COMPARED)/sphere-tree.tuile: $(COMPARED)/sphere.obj
-$(COMPARED)/spider.tuile $(COMPARED)/spider-tree.tuile: $(SPIDER)
-$(COMPARED)/room.tuile $(COMPARED)/room-tree.tuile: tests/models/room.obj
-$(COMPARED)/house.tuile $(COMPARED)/house-tree.tuile: $(HOUSE)
-$(COMPARED)/%-tree.tuile: $(TUILE)
-	@mkdir -p $(@D)
-	$(TUILE) mesh $(filter-out $(TUILE),$^) --no-textures --tree -o $@ >/dev/null
-$(COMPARED)/%.tuile: $(TUILE)
-	@mkdir -p $(@D)
-	$(TUILE) mesh $(filter-out $(TUILE),$^) --no-textures -o $@ >/dev/null
-
-bench-methods: $(OBJ)/bench $(BUILD)/need/bench $(COMPARED_MODELS) ## the five methods over four scenes: instructions, memory, overdraw, flash
-	@sh tests/bench/methods.sh $(OBJ)/bench $(COMPARED) $(COMPARED) $(SIZE) $(METHODS_TILE) $(METHODS_SCENES)
-
-$(OBJ)/instances: $(OBJ)/tests/bench/instances.o $(SIM_LIB_OBJ) $(CORE_OBJ)
-	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
-
-bench-instances: $(OBJ)/instances $(BUILD)/need/bench $(COMPARED)/sphere.tuile ## what instances cost that nobody sees
-	@sh tests/bench/instances.sh $(OBJ)/instances $(BUILD)/bench 16 tests/models/link.obj $(COMPARED)/sphere.tuile
-
-$(OBJ)/bench-linux: $(OBJ)/tests/bench/linux.o $(call objects,$(MOCK_SRC)) $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
-	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -lumockdev -lgobject-2.0 -lglib-2.0 -o $@
-
-bench-linux: $(OBJ)/bench-linux ## what the sending thread of a Linux board is worth
-	@umockdev-wrapper $<
-
 # ---- pictures of docs/methods.md: one view of each method, from the inside of a room and of four beams -----------------
 PICTURES := docs/pictures
 ROOM_VIEW := --rotate 90 --eye 0,1.2,2.4 --at 0,1,0 --fov 70

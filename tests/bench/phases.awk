@@ -1,4 +1,5 @@
-# Sums the output of lines.awk, or of qemu/run.sh, by phase of a frame: total, vertex, cull, setup, span, clear, resolve, helpers.
+# Sums the output of lines.awk, or of qemu/run.sh, by phase of a frame: total, vertex, cull, setup, span, clear, resolve, helpers; and the total of
+# the functions of raster/ alone.
 # vertex: the vertex stage. cull: transforms, instances and clusters that are dropped. setup: faces from clusters to sides and
 # gradients. span: rows and pixels. helpers: the compiler's functions for what the machine has no instruction for, and copies.
 # A line counts for the file that it stands in, wherever it was inlined; those of fixed.h for the function's.
@@ -18,8 +19,9 @@ function phase(fn, file, line) {
     file = $4 ~ /raster\/(.*\/)?(fixed|tuile|features|pixel)\.h$/ ? $3 : $4
     cost[phase($2, file, $5)] += $1
     total += $1
+    if ($3 ~ /raster\//) ours += $1
 }
 END {
-    printf "%.0f %.0f %.0f %.0f %.0f %.0f %.0f %.0f\n", total / frames, cost["vertex"] / frames, cost["cull"] / frames,
-        cost["setup"] / frames, cost["span"] / frames, cost["clear"] / frames, cost["resolve"] / frames, cost["helpers"] / frames
+    printf "%.0f %.0f %.0f %.0f %.0f %.0f %.0f %.0f %.0f\n", total / frames, cost["vertex"] / frames, cost["cull"] / frames,
+        cost["setup"] / frames, cost["span"] / frames, cost["clear"] / frames, cost["resolve"] / frames, cost["helpers"] / frames, ours / frames
 }

@@ -11,7 +11,7 @@ $(OBJ)/wire_trace: $(OBJ)/tests/emulators/wire_trace.o $(SIM_LIB_OBJ) $(CORE_OBJ
 
 $(FIRMWARE)/libcount.so: $(EMULATORS)/count.c
 	@mkdir -p $(@D)
-	@echo "  gcc $@"; gcc -std=c11 -O2 -fPIC -shared -fvisibility=hidden $(WARN) $< -o $@
+	@echo "  gcc $@"; gcc -std=c11 -D_GNU_SOURCE -O2 -fPIC -shared -fvisibility=hidden $(WARN) $< -o $@
 
 # ---- figures of the linked images, held against what the boards have -------------------------------------------------
 .PHONY: size-firmware stack test-firmware $(BOARDS:%=size-firmware-%) $(BOARDS:%=stack-%) $(BOARDS:%=test-firmware-%)

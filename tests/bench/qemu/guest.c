@@ -1,8 +1,8 @@
 /* The frames of the bench on an emulated microcontroller: the model in flash, no C library. Prints a hash of all pictures, which
  * must be that of the host.
  *
- * Defined by the compiler's arguments: SCENE, the header that guest_scene wrote; WIDTH, HEIGHT, TILE_WIDTH, TILE_HEIGHT; SHADE and
- * EFFECTS as of tuile_config_t; MEMORY bytes.
+ * Defined by the compiler's arguments: SCENE, the header that guest_scene wrote; WIDTH, HEIGHT, TILE_WIDTH, TILE_HEIGHT; SHADE,
+ * EFFECTS and METHOD as of tuile_config_t; MEMORY bytes.
  */
 #include "../../../raster/memory.h"
 #include "../../../raster/tuile.h"
@@ -133,8 +133,10 @@ int guest_main(void) {
                                           .tile_height = TILE_HEIGHT,
                                           .shade = SHADE,
                                           .effects = EFFECTS,
+                                          .method = METHOD,
                                           .cluster_vertices = SCENE_CLUSTER_VERTICES,
-                                          .corners = SCENE_CORNERS};
+                                          .corners = SCENE_CORNERS,
+                                          .tree_depth = SCENE_TREE_DEPTH};
     tuile_scene_t scene = {
         .instance_count = 1, .lights = &scene_light, .light_count = 1, .ambient = SCENE_AMBIENT, .camera = scene_camera};
     uint64_t hash = 14695981039346656037u;

@@ -62,8 +62,8 @@ int main(int count, char **arguments) {
         turntable_place(&view.instance, &model, i);
         print_instance(header, &view.instance);
     }
-    (void)fprintf(header, "};\n#define SCENE_CLUSTER_VERTICES %u\n#define SCENE_CORNERS %u\n", model.cluster_vertices_max,
-                  model.corners_max);
+    (void)fprintf(header, "};\n#define SCENE_CLUSTER_VERTICES %u\n#define SCENE_CORNERS %u\n#define SCENE_TREE_DEPTH %u\n",
+                  model.cluster_vertices_max, model.corners_max, model.tree_depth);
     free(bytes);
     return fclose(header) != 0;
 }

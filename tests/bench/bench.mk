@@ -1,0 +1,101 @@
+# Figures: what a frame costs. Included by the Makefile.
+
+BENCH := tests/bench
+BENCH_OUT := $(BUILD)/bench
+SIZE ?= 320x240
+TILE ?= 320x24 32x32 320x240
+MODEL ?= spider bunny
+METHODS ?= zbuffer scanline warnock painter tree
+SHADES ?= flat gouraud textured-gouraud
+MEMORY ?= 4M
+BENCH_GUESTS := cortex-m0plus cortex-m3 cortex-m4 cortex-m33 rv32imac
+TARGETS ?= x86-64 $(BENCH_GUESTS) atmega328p rp2040
+BENCH_JOBS ?= $(shell nproc)
+
+$(BUILD)/need/bench: ; $(call need,valgrind python3,instruction counts)
+$(BUILD)/need/bench-targets: ; $(call need,qemu-system-arm qemu-system-misc gcc-arm-none-eabi gcc-riscv64-unknown-elf,instruction counts on microcontrollers)
+
+# ---- models by name: MODEL='spider bunny-2000 FILE' ----------------------------------------------------------------------
+# NAME=FILE, or NAME=FILE:FACES, the most triangles; NAME-FACES is NAME with so many at most.
+HOUSE := $(dir $(SPIDER))../IFC/AC14-FZK-Haus.ifc
+BENCH_SPHERE := $(BENCH_OUT)/sphere.obj
+BENCH_KNOWN := spider=$(SPIDER) bunny=$(BUNNY):6000 room=tests/models/room.obj floor=tests/models/floor.obj beams=tests/models/beams.obj \
+               cube=firmware/models/cube.obj sphere=$(BENCH_SPHERE) house=$(HOUSE)
+bench_from_spider := $(SPIDER)
+bench_from_bunny := $(BUNNY)
+bench_from_sphere := $(BENCH_SPHERE)
+bench_from_house := $(HOUSE)
+bench_from = $(foreach m,$(1),$(bench_from_$(firstword $(subst -, ,$(m)))) $(filter $(BUILD)/%,$(m)))
+
+$(OBJ)/sphere: $(OBJ)/tests/bench/sphere.o
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ -lm -o $@
+$(BENCH_SPHERE): $(OBJ)/sphere
+	@mkdir -p $(@D) && $< >$@
+$(HOUSE): $(SPIDER) ;
+
+# ---- programs ------------------------------------------------------------------------------------------------------------
+$(OBJ)/bench $(OBJ)/guest_scene: $(OBJ)/tests/bench/turntable.o
+$(OBJ)/guest_scene: $(OBJ)/tests/bench/qemu/guest_scene.o $(SIM_LIB_OBJ) $(CORE_OBJ)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
+$(OBJ)/bench: $(OBJ)/tests/bench/bench.o $(SIM_LIB_OBJ) $(CORE_OBJ)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
+
+# raster/ for each emulated processor; ROOT, ending in /: of another tree.
+ROOT ?=
+BENCH_GUEST ?= $(BENCH_OUT)/guest
+BENCH_GUEST_SRC := $(patsubst $(ROOT)%,%,$(filter-out $(addprefix $(ROOT)raster/,compact/%),$(wildcard $(ROOT)raster/*.c $(ROOT)raster/*/*.c)))
+guest_objects = $(foreach t,$(filter $(BENCH_GUESTS),$(1)),$(patsubst %.c,$(BENCH_GUEST)/$(t)/%.o,$(BENCH_GUEST_SRC)))
+define guest_target
+$(BENCH_GUEST)/$(1)/%.o: $(ROOT)%.c $(BENCH)/qemu/target.sh | $(BUILD)/need/bench-targets
+	@mkdir -p $$(@D)
+	@echo "  $(1) $$<"; sh $(BENCH)/qemu/cc.sh $(1) -MMD -MP -c $$< -o $$@
+endef
+$(foreach target,$(BENCH_GUESTS),$(eval $(call guest_target,$(target))))
+
+BENCH_PROGRAMS := $(OBJ)/bench $(OBJ)/guest_scene $(FIRMWARE)/libcount.so $(TUILE)
+BENCH_COMMON = --bench $(OBJ)/bench --scene $(OBJ)/guest_scene --guest $(BENCH_GUEST) --plugin $(FIRMWARE)/libcount.so --tuile $(TUILE) \
+               --out $(BENCH_OUT) --jobs $(BENCH_JOBS) $(addprefix --known ,$(BENCH_KNOWN))
+bench_needs = $(BENCH_PROGRAMS) $(BUILD)/need/bench $(call bench_from,$(1)) $(call guest_objects,$(2))
+
+# ---- make bench ----------------------------------------------------------------------------------------------------------
+# Boards draw their own scenes; both programs print the cycles of each frame.
+BENCH_UNO = mkdir -p $(BENCH_OUT)/uno && $(OBJ)/uno show $(UNO)/frames.bin $(FIRMWARE)/models $(BENCH_OUT)/uno
+BENCH_RP2040 = $(EMULATE_RP2040) --program $(pico_FOLDER)/frames.elf --options 'panel=st7789-240x240 frames=8'
+bench_board_needs = $(if $(filter atmega328p,$(1)),$(OBJ)/uno $(UNO)/frames.elf) $(if $(filter rp2040,$(1)),$(pico_FOLDER)/frames.elf $(RP2040JS))
+
+.PHONY: bench bench-methods bench-instances bench-linux
+bench: $(call bench_needs,$(MODEL),$(TARGETS)) $(call bench_board_needs,$(TARGETS)) ## what frames cost, by callgrind, QEMU and the boards' emulators; MODEL='NAME FILE ...' TILE=WxH SIZE=WxH TARGETS= METHODS= SHADES=
+	@$(PYTHON) $(BENCH)/bench.py rows $(BENCH_COMMON) --size $(SIZE) --tiles '$(TILE)' --targets '$(TARGETS)' --methods '$(METHODS)' \
+	  --shades '$(SHADES)' --memory $(MEMORY) --board 'atmega328p=$(BENCH_UNO)' --board "rp2040=$(BENCH_RP2040)" $(MODEL)
+
+# ---- others ---------------------------------------------------------------------------------------------------------------
+# Four scenes, each compiled without and with a display tree: NAME[@EYE@AT@FOV], model units.
+METHODS_SCENES := sphere spider room@0,1.2,1.7@0,1,0@70 house@17,8,10@6,2,-5@45
+METHODS_TILE ?= 320x24
+COMPARED := $(BUILD)/bench/methods
+COMPARED_MODELS := $(foreach n,sphere spider room house,$(COMPARED)/$(n).tuile $(COMPARED)/$(n)-tree.tuile)
+$(COMPARED)/sphere.tuile $(COMPARED)/sphere-tree.tuile: $(BENCH_SPHERE)
+$(COMPARED)/spider.tuile $(COMPARED)/spider-tree.tuile: $(SPIDER)
+$(COMPARED)/room.tuile $(COMPARED)/room-tree.tuile: tests/models/room.obj
+$(COMPARED)/house.tuile $(COMPARED)/house-tree.tuile: $(HOUSE)
+$(COMPARED)/%-tree.tuile: $(TUILE)
+	@mkdir -p $(@D)
+	$(TUILE) mesh $(filter-out $(TUILE),$^) --no-textures --tree -o $@ >/dev/null
+$(COMPARED)/%.tuile: $(TUILE)
+	@mkdir -p $(@D)
+	$(TUILE) mesh $(filter-out $(TUILE),$^) --no-textures -o $@ >/dev/null
+
+bench-methods: $(OBJ)/bench $(BUILD)/need/bench $(COMPARED_MODELS) ## the five methods over four scenes: instructions, memory, overdraw, flash
+	@sh tests/bench/methods.sh $(OBJ)/bench $(COMPARED) $(COMPARED) $(SIZE) $(METHODS_TILE) $(METHODS_SCENES)
+
+$(OBJ)/instances: $(OBJ)/tests/bench/instances.o $(SIM_LIB_OBJ) $(CORE_OBJ)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
+
+bench-instances: $(OBJ)/instances $(BUILD)/need/bench $(COMPARED)/sphere.tuile ## what instances cost that nobody sees
+	@sh tests/bench/instances.sh $(OBJ)/instances $(BUILD)/bench 16 tests/models/link.obj $(COMPARED)/sphere.tuile
+
+$(OBJ)/bench-linux: $(OBJ)/tests/bench/linux.o $(call objects,$(MOCK_SRC)) $(TEST_LIB_OBJ) $(SIM_LIB_OBJ) $(CORE_OBJ)
+	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) $(LIBS_TEST) -lumockdev -lgobject-2.0 -lglib-2.0 -o $@
+
+bench-linux: $(OBJ)/bench-linux ## what the sending thread of a Linux board is worth
+	@umockdev-wrapper $<
