@@ -5,11 +5,12 @@
 button_event_t button_look(button_t *button, bool pressed, uint32_t now_us) {
     const uint32_t passed_us = now_us - button->since_us;
 
+    if (!button->looked) { *button = (button_t){.looked = true, .down = pressed, .told = pressed}; }
     if (button->changed && passed_us < BUTTON_BOUNCE_US) { return BUTTON_NOTHING; }
     if (pressed != button->down) {
         const bool is_short = button->down && !button->told;
 
-        *button = (button_t){.down = pressed, .changed = true, .since_us = now_us};
+        *button = (button_t){.looked = true, .down = pressed, .changed = true, .since_us = now_us};
         return is_short ? BUTTON_SHORT : BUTTON_NOTHING;
     }
     if (button->down && !button->told && passed_us >= BUTTON_LONG_US) {

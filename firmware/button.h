@@ -14,9 +14,9 @@ typedef enum button_event {
     BUTTON_LONG = 2,  /* still held, and told once */
 } button_event_t;
 
-/* Begins as {0}: not pressed. */
+/* Begins as {0}. A button that is held down at the first look is told only when it has been let go and pressed again. */
 typedef struct button {
-    bool down, told, changed; /* told: this press; changed: since_us says when last, and that is not long ago */
+    bool looked, down, told, changed; /* told: this press; changed: since_us says when last, and that is not long ago */
     uint32_t since_us;
 } button_t;
 

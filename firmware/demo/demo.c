@@ -6,7 +6,7 @@
  *     demo spider zbuffer 8190 12.3   the phase of the scene, and the rate that stands over it, 0 when it is not known
  *
  * and waits until the frame has been looked at. A pair of scene and method that the board has no memory for, or whose model has no
- * tree, is left out. */
+ * tree, is left out; with tell=1 a line says so: skip spider warnock wants 70000, in bytes. */
 #include "../board/board.h"
 #include "../board/line.h"
 #include "../caption.h"
@@ -48,14 +48,28 @@ static void over_tile(void *context, tuile_canvas_t *canvas) {
     caption_draw(context, canvas);
 }
 
-static void tell_shown(uint16_t phase) {
+static line_t line_of(const char *kind) {
     line_t line = {.used = 0};
+
+    line_word(&line, kind);
+    line_word(&line, scenes[tour.scene]->name);
+    line_word(&line, caption_methods[tour.method]);
+    return line;
+}
+
+static void tell_skipped(void) {
+    line_t line = line_of("skip");
+
+    line_word(&line, "wants");
+    line_number(&line, (uint32_t)player.wanted_bytes);
+    board_tell(line.text);
+}
+
+static void tell_shown(uint16_t phase) {
+    line_t line = line_of("demo");
     char rate[TUILE_DECIMAL_BYTES];
 
     tuile_decimal(rate, caption.rate, caption.rate ? 1 : 0);
-    line_word(&line, "demo");
-    line_word(&line, scenes[tour.scene]->name);
-    line_word(&line, caption_methods[tour.method]);
     line_number(&line, phase);
     line_word(&line, rate);
     board_tell(line.text);
@@ -91,6 +105,7 @@ static void run(bool tells, uint32_t count) {
 
         if (!error) { error = show(phase); }
         if (error == TUILE_ERROR_MEMORY || error == TUILE_ERROR_TREE) {
+            if (tells) { tell_skipped(); }
             if (!tour_skip(&tour, board_clock_us())) { fail("no scene can be drawn in this memory"); }
             error = open_scene();
             continue;

@@ -6,6 +6,9 @@ PYTHON := PYTHONDONTWRITEBYTECODE=1 python3
 STACK = $(PYTHON) $(EMULATORS)/stack.py $(1)/$(or $(3),frames).elf $(1) --tools $($(2)_TOOLS) --calls firmware/calls \
         --without $(filter-out $(or $(3),frames),$(FIRMWARE_PROGRAMS))
 
+# $(call DEMO,BOARD,FOLDER): holds the demo's frames against the simulator's.
+DEMO = $(PYTHON) $(EMULATORS)/demo.py $(1) $(2)/demo.elf --wanted firmware/$(1)/frames --tuile $(TUILE) --models $(FIRMWARE)/models --out $(2)/demo
+
 $(OBJ)/wire_trace: $(OBJ)/tests/emulators/wire_trace.o $(SIM_LIB_OBJ) $(CORE_OBJ)
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
 
@@ -45,6 +48,7 @@ test-firmware-lm3s6965evb: $(LM3S)/frames.elf $(LM3S_CORES:%=$(LM3S)-%/frames.el
 	@for core in $(LM3S_CORES); do $(call STACK,$(LM3S)-$$core,lm3s6965evb) --room $(lm3s6965evb_STACK) --quiet >/dev/null || exit 1; done
 	@$(LM3S_RUN) test $(LM3S)/frames.elf --cpu $(subst $(empty) $(empty),$(comma),$(foreach c,$(LM3S_CORES),cortex-$(c):$(LM3S)-$(c)/frames.elf)) \
 	  --wanted firmware/lm3s6965evb/frames --tuile $(TUILE) --models $(FIRMWARE)/models --out $(LM3S)/out
+	@$(call DEMO,lm3s6965evb,$(LM3S))
 
 # OPTIONS='scene=spider method=zbuffer frames=32'
 OPTIONS := frames=4
@@ -58,6 +62,7 @@ SIFIVE_RUN = $(PYTHON) $(EMULATORS)/sifive_e.py $(1) $(SIFIVE)/frames.elf --wire
 test-firmware-sifive_e: $(SIFIVE)/frames.elf $(OBJ)/wire_trace $(TUILE) firmware-models $(BUILD)/need/emulators stack-sifive_e size-firmware-sifive_e
 	@$(call SIFIVE_RUN,test) --wanted firmware/sifive_e/frames --tuile $(TUILE) --models $(FIRMWARE)/models --out $(SIFIVE)/out \
 	  --stack $$($(call STACK,$(SIFIVE),sifive_e) --quiet)
+	@$(call DEMO,sifive_e,$(SIFIVE)) --wire-trace $(OBJ)/wire_trace
 
 emulate-sifive_e: $(SIFIVE)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so $(BUILD)/need/emulators ## the same
 	@$(call SIFIVE_RUN,show) --out $(SIFIVE)/frames --plugin $(FIRMWARE)/libcount.so --options '$(OPTIONS)'

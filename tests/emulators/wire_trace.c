@@ -1,8 +1,9 @@
 /* Reads what a board has put on its wire and writes what a panel at the other end showed.
  *
  * Usage: wire_trace PANEL ROTATION FOLDER < TRACE   ROTATION: 0, 90, 180 or 270
- * TRACE is as firmware/board/wire_file.h has it. Each line of text goes to stdout; after "frame NAME METHOD NUMBER ..." FOLDER
- * receives NAME-METHOD-NUMBER.ppm, the picture as it is seen. An error ends it with one line on stderr and the code 1. */
+ * TRACE is as firmware/board/wire_file.h has it. Each line of text goes to stdout; after "frame NAME METHOD NUMBER ...", or "demo"
+ * in the place of "frame", FOLDER receives NAME-METHOD-NUMBER.ppm, the picture as it is seen. An error ends it with one line on
+ * stderr and the code 1. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,7 +27,10 @@ static int write_picture(trace_t *trace, const char *line, sim_error_t *error) {
     unsigned number;
     sim_picture_t glass = {0}, seen = {0};
 
-    if (sscanf(line, "frame %31s %31s %u", name, method, &number) != 3) { return 0; }
+    if (sscanf(line, "frame %31s %31s %u", name, method, &number) != 3 &&
+        sscanf(line, "demo %31s %31s %u", name, method, &number) != 3) {
+        return 0;
+    }
     (void)snprintf(path, sizeof path, "%s/%s-%s-%02u.ppm", trace->folder, name, method, number);
     const int result = trace->chip->glass(trace->chip, &glass, error) ||
                        sim_picture_turn(&glass, -trace->quarter_turns, &seen, error) || sim_picture_write(&seen, path, error);
