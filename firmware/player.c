@@ -35,8 +35,11 @@ int player_open(player_t *player, const scene_script_t *script, const player_con
     int error;
 
     player->display = config->display;
+    player->update = config->update;
     player->stats = (tuile_stats_t){0};
     player->wanted_bytes = 0;
+    if (config->update) { tuile_update_forget(config->update); }
+    if (config->update && config->update->changes) { tuile_changes_forget(config->update->changes); }
     if (config->method > TUILE_TREE || !(script->methods >> config->method & 1u)) { return TUILE_ERROR_ARGUMENT; }
     if ((error = scene_open(&player->stage, script, config->model, config->model_bytes, layout.width, layout.height))) {
         return error;
@@ -52,7 +55,9 @@ int player_frame(player_t *player, uint32_t frame) {
 }
 
 int player_show(player_t *player) {
-    const int error = tuile_stream_frame(player->renderer, &player->stage.scene, player->display, &player->stats);
+    const int error =
+        player->update ? tuile_update_frame(player->update, player->renderer, &player->stage.scene, player->display, &player->stats)
+                       : tuile_stream_frame(player->renderer, &player->stage.scene, player->display, &player->stats);
     if (error == TUILE_ERROR_MEMORY) { player->wanted_bytes = tuile_wanted(player->renderer); }
     return error;
 }

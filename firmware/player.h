@@ -3,7 +3,7 @@
 #define TUILE_FIRMWARE_PLAYER_H
 
 #include "scenes.h"
-#include "stream.h"
+#include "update.h"
 
 /* Zero = default, throughout. */
 typedef struct player_config {
@@ -17,12 +17,16 @@ typedef struct player_config {
     uint16_t tile_width, tile_height; /* 0 = the whole width; as high as suits the block and the display */
     tuile_overlay_fn overlay;         /* drawn over each tile; NULL = none */
     void *overlay_context;
+    /* NULL = every frame is sent whole; else as tuile_update_frame wants it, and it outlives the player. player_open forgets the
+     * frame before; the sums may come afterwards, when tuile_config(player->renderer) tells the tiles. */
+    tuile_update_t *update;
 } player_config_t;
 
 /* Must not be moved while it is open. */
 typedef struct player {
     scene_stage_t stage;
     tuile_display_t *display;
+    tuile_update_t *update; /* may be NULL */
     tuile_t *renderer;
     tuile_stats_t stats; /* of the last frame */
     size_t wanted_bytes; /* after TUILE_ERROR_MEMORY: a block that would have been enough there */
@@ -32,7 +36,7 @@ typedef struct player {
  * TUILE_ERROR_ARGUMENT also for a method that the script does not name. */
 int player_open(player_t *player, const scene_script_t *script, const player_config_t *config);
 
-/* Draws one frame and shows it. 0 or an error of either kind. */
+/* Draws one frame and shows it, or what has changed of it. 0 or an error of either kind. */
 int player_frame(player_t *player, uint32_t frame);
 
 /* The same of the stage as it is set, by scene_phase. */

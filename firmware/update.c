@@ -8,26 +8,27 @@
 /* How the bytes of a tile lie: lines of so many bytes. Of turned formats lines run along y, so that cells are whole lines. */
 typedef struct layout {
     uint32_t line_bytes, line_count;
+    uint32_t step_bytes; /* from a column to the eighth after it */
     bool turned;
     bool solid; /* lines end in the middle of a byte: all or nothing */
 } layout_t;
 
 static layout_t layout_of(const tuile_tile_t *tile, uint8_t wire) {
-    const uint32_t bits = tuile_wire_bits(wire);
+    const uint32_t bits = tuile_wire_bits(wire); /* of a pixel, and so the bytes of eight */
     uint32_t lines = tile->height;
 
-    if (wire == TUILE_WIRE_MONO_PAGES) { lines = (lines + 7u) / 8u; }
     if (wire == TUILE_WIRE_RGB444 && tile->width % 2u) { return (layout_t){tile->size_bytes, 1, .solid = true}; }
     if (wire == TUILE_WIRE_MONO_PAGES_TURNED || wire == TUILE_WIRE_GREY4_TURNED) {
-        return (layout_t){(bits * 8u * tile->height + 7u) / 8u, (tile->width + 7u) / 8u, .turned = true};
+        const uint32_t line_bytes = (bits * 8u * tile->height + 7u) / 8u;
+        return (layout_t){line_bytes, (tile->width + 7u) / 8u, line_bytes, .turned = true};
     }
-    return (layout_t){tile->size_bytes / lines, lines};
+    if (wire == TUILE_WIRE_MONO_PAGES) { lines = (lines + 7u) / 8u; }
+    return (layout_t){tile->size_bytes / lines, lines, wire == TUILE_WIRE_MONO_PAGES ? 8 : bits};
 }
 
-/* Bytes of a line, or lines, up to a pixel; x is a multiple of 8 or the tile's width. */
+/* Bytes of a line, or of all lines where they are turned, up to a column: a multiple of 8, or the tile's width. */
 static uint32_t place(const layout_t *layout, const tuile_tile_t *tile, uint32_t x) {
-    if (layout->turned) { return x == tile->width ? tile->size_bytes : x / 8u * layout->line_bytes; }
-    return x == tile->width ? layout->line_bytes : (uint32_t)((uint64_t)layout->line_bytes * x / tile->width);
+    return x < tile->width ? x / 8u * layout->step_bytes : layout->turned ? tile->size_bytes : layout->line_bytes;
 }
 
 /* Multiply and rotate, a word at a time where the bytes lie so; each step is a bijection of the sum. */
@@ -36,29 +37,39 @@ static uint32_t add(uint32_t sum, uint32_t word) {
     return sum >> 15 | sum << 17;
 }
 
-static uint32_t add_bytes(uint32_t sum, const uint8_t *bytes, uint32_t count) {
-    if (((uintptr_t)bytes & 3u) == 0) {
-        for (; count >= 4; count -= 4, bytes += 4) {
-            uint32_t word;
-            __builtin_memcpy(&word, __builtin_assume_aligned(bytes, 4), 4);
-            sum = add(sum, word);
+static uint32_t word_at(const uint8_t *bytes) {
+    uint32_t word;
+
+    __builtin_memcpy(&word, __builtin_assume_aligned(bytes, 4), 4);
+    return word;
+}
+
+/* Of lines that lie stride_bytes apart, `count` bytes each. A function of its own, for its registers: of all that is done for a
+ * pixel that stays as it is, this takes most. */
+__attribute__((noinline)) static uint32_t sum_lines(const uint8_t *bytes, uint32_t stride_bytes, uint32_t count, uint32_t lines) {
+    const bool words = (((uintptr_t)bytes | stride_bytes) & 3u) == 0;
+    uint32_t sum = 1;
+
+    for (; lines > 0; lines--, bytes += stride_bytes) {
+        const uint8_t *at = bytes, *const end = bytes + count;
+
+        for (; words && end - at >= 16; at += 16) {
+            sum = add(add(add(add(sum, word_at(at)), word_at(at + 4)), word_at(at + 8)), word_at(at + 12));
+        }
+        for (; words && end - at >= 4; at += 4) {
+            sum = add(sum, word_at(at));
+        }
+        while (at < end) {
+            sum = add(sum, *at++);
         }
     }
-    for (; count > 0; count--) {
-        sum = add(sum, *bytes++);
-    }
-    return sum;
+    return sum ? sum : 1; /* 0: not known */
 }
 
 static uint32_t sum_of(const layout_t *layout, const tuile_tile_t *tile, uint32_t from, uint32_t end) {
     const uint32_t first = place(layout, tile, from), count = place(layout, tile, end) - first;
-    const uint32_t lines = layout->turned ? 1 : layout->line_count;
-    uint32_t sum = 1;
 
-    for (uint32_t line = 0; line < lines; line++) {
-        sum = add_bytes(sum, tile->bytes + (size_t)line * layout->line_bytes + first, count);
-    }
-    return sum ? sum : 1; /* 0: not known */
+    return sum_lines(tile->bytes + first, layout->line_bytes, count, layout->turned ? 1 : layout->line_count);
 }
 
 /* ---- windows --------------------------------------------------------------------------------------------------- */
@@ -204,6 +215,9 @@ static void plan(tuile_update_t *update, const tuile_display_t *display) {
     update->bytes_whole = update->bytes_sent = 0;
     update->summing = update->resting == 0;
     if (!update->summing) { update->resting--; }
+    for (uint32_t i = 0; i < update->sum_count && !update->valid; i++) {
+        update->sums[i] = 0;
+    }
     update->whole = !update->valid || display->refresh || due;
     update->frames = update->whole ? 1 : update->frames + 1;
     update->valid = false; /* until the frame is out */

@@ -21,7 +21,7 @@
 
 /* Zero = default, but for sums. Counters are of the last frame. */
 typedef struct tuile_update {
-    uint32_t *sums; /* the caller's, sum_count of them: TUILE_UPDATE_CELLS */
+    uint32_t *sums; /* the caller's, sum_count of them: TUILE_UPDATE_CELLS; whatever is in them at first */
     uint32_t sum_count;
     uint16_t cell_width;      /* pixels, a multiple of 8; 0 = the tile's width */
     uint16_t full_every;      /* frames from one that is sent whole to the next; 0 = only when the display asks for it */

@@ -6,6 +6,7 @@
 #include "mesh/mesh.h"
 #include "render_display.h"
 #include "render_format.h"
+#include "render_update.h"
 #include "render_value.h"
 
 #include <math.h>
@@ -41,6 +42,8 @@ typedef struct scene_command {
     uint8_t method;
     render_display_t where;
     render_format_t format;
+    render_update_t update;
+    uint64_t wire_bytes; /* of all frames but the first */
 
     const scene_script_t *script;
     uint8_t *bytes, *font;
@@ -97,9 +100,10 @@ static int parse(scene_command_t *c, int count, char **arguments) {
             c->hash = true;
         } else if (strcmp(argument, "--help") == 0) {
             (void)fputs(usage, stdout);
+            (void)fputs(render_update_usage, stdout);
             (void)fputs(render_display_usage, stdout);
             return -1;
-        } else if (!render_display_option(&c->where, &options, argument) &&
+        } else if (!render_display_option(&c->where, &options, argument) && !render_update_option(&c->update, &options, argument) &&
                    (strcmp(argument, "--format") != 0 || !render_format_option(&c->format, &options, argument))) {
             options_unknown(&options);
         }
@@ -159,6 +163,7 @@ static int set_up(scene_command_t *c) {
         .method = c->method,
         .tile_width = c->tile_width,
         .tile_height = c->tile_height,
+        .update = c->update.cell_width ? &c->update.update : NULL,
     };
     c->script = scene_find(c->name);
     if (!c->script) { return command_fail("scene %s: there is none; `tuile scene` lists them", c->name); }
@@ -178,7 +183,8 @@ static int set_up(scene_command_t *c) {
     if (result == TUILE_ERROR_MEMORY) {
         return command_fail("--memory: %zu bytes are too few; at least %zu are wanted", c->memory_bytes, c->player.wanted_bytes);
     }
-    return result ? command_fail("scene %s: %s", c->name, tuile_stream_error_text(result)) : 0;
+    if (result) { return command_fail("scene %s: %s", c->name, tuile_stream_error_text(result)); }
+    return render_update_open(&c->update, tuile_config(c->player.renderer), 1);
 }
 
 /* FNV-1a, 64 bits, over rows of red, green, blue. */
@@ -194,6 +200,8 @@ static int draw(scene_command_t *c, unsigned number) {
     sim_picture_t seen = {0}, glass = {0};
     sim_error_t error = {""};
     char name[4096];
+    uint64_t bytes, frame_ns;
+    target_begin_frame(&c->target);
     int result = c->phase < 0 ? scene_frame(&c->player.stage, number) : scene_phase(&c->player.stage, (bam16_t)c->phase);
     if (!result) { result = player_show(&c->player); }
     if (result == TUILE_ERROR_MEMORY) {
@@ -204,6 +212,9 @@ static int draw(scene_command_t *c, unsigned number) {
         return command_fail("frame %u: %s%s%s", number, tuile_stream_error_text(result), target_detail(&c->target)[0] ? ": " : "",
                             target_detail(&c->target));
     }
+    render_update_count(&c->update);
+    target_frame_figures(&c->target, &bytes, &frame_ns);
+    if (number != (unsigned)c->first) { c->wire_bytes += bytes; }
     if (!target_is_simulated(&c->target)) { return 0; }
     int code = target_picture(&c->target, &seen, &glass, &error) ? command_fail("%s", error.text) : 0;
     if (code == 0 && c->hash) { (void)printf("frame %u %016llx\n", number, (unsigned long long)picture_hash(&glass)); }
@@ -226,6 +237,10 @@ static int run(scene_command_t *c) {
         const tuile_stats_t *s = &c->player.stats;
         (void)printf("%s: %u faces; memory given %u, least %u, used %u bytes, %u pass%s; %u tiles\n", c->name, s->faces,
                      s->size_bytes, s->least_bytes, s->peak_bytes, s->passes, s->passes == 1 ? "" : "es", s->tiles);
+        render_update_tell(&c->update);
+        if (c->frames > 1 && c->wire_bytes) {
+            (void)printf("wire: after the first frame %llu bytes, commands and all\n", (unsigned long long)c->wire_bytes);
+        }
     }
     return command_finish();
 }
@@ -239,6 +254,7 @@ int command_scene(int count, char **arguments) {
     if (!c.name) { return list(); }
     code = run(&c);
     target_close(&c.target);
+    render_update_close(&c.update);
     free(c.block);
     free(c.font);
     free(c.bytes);

@@ -47,15 +47,18 @@ void render_update_close(render_update_t *part) {
     part->changes.instances = NULL;
 }
 
+void render_update_count(render_update_t *part) {
+    if (!part->cell_width || part->frames++ == 0) { return; }
+    part->bytes_whole += part->update.bytes_whole;
+    part->bytes_sent += part->update.bytes_sent;
+    part->tiles_skipped += part->update.tiles_skipped;
+}
+
 int render_update_frame(render_update_t *part, tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display,
                         tuile_stats_t *stats) {
     if (!part->cell_width) { return tuile_stream_frame(renderer, scene, display, stats); }
     const int result = tuile_update_frame(&part->update, renderer, scene, display, stats);
-    if (part->frames++ > 0) {
-        part->bytes_whole += part->update.bytes_whole;
-        part->bytes_sent += part->update.bytes_sent;
-        part->tiles_skipped += part->update.tiles_skipped;
-    }
+    render_update_count(part);
     return result;
 }
 

@@ -1,4 +1,4 @@
-/* Of tuile render: frames of which only what has changed is sent. */
+/* Of tuile render and tuile scene: frames of which only what has changed is sent. */
 #ifndef SIM_RENDER_UPDATE_H
 #define SIM_RENDER_UPDATE_H
 
@@ -29,6 +29,9 @@ void render_update_close(render_update_t *part);
 /* Draws and sends a frame: tuile_stream_frame where nothing else was asked for. */
 int render_update_frame(render_update_t *part, tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display,
                         tuile_stats_t *stats);
+
+/* Adds the figures of a frame that another has drawn with `update`; nothing where it was not asked for. */
+void render_update_count(render_update_t *part);
 
 /* A line about all frames on stdout, if it was asked for. */
 void render_update_tell(const render_update_t *part);

@@ -108,6 +108,43 @@ static void a_model_of_one_s_own_is_a_scene(void **state) {
     free(tree);
 }
 
+/* The number behind a text, which must be there. */
+static unsigned long number_behind(const char *out, const char *text) {
+    const char *at = strstr(out, text);
+    if (!at) { fail_msg("no \"%s\" in: %s", text, out); }
+    return strtoul(at + strlen(text), NULL, 10);
+}
+
+/* 128 x 64 pixels of 4 bits are 4096 bytes. */
+static void what_has_changed_is_sent_and_told(void **state) {
+    char *whole = cli_good("scene cube --models @ --panel ssd0323 --frames 4 --tile 128x16 --out @/whole-%d.ppm");
+    char *less = cli_good("scene cube --models @ --panel ssd0323 --frames 4 --tile 128x16 --update 16 --out @/less-%d.ppm");
+    (void)state;
+    const unsigned long sent = number_behind(less, "update: after the first frame ");
+    assert_int_equal(number_behind(less, " of "), 3 * 4096);
+    assert_in_range(sent, 3 * 128, 2 * 4096);
+    assert_true(number_behind(less, "wire: after the first frame ") > sent);
+    assert_true(number_behind(less, "wire: after the first frame ") < number_behind(whole, "wire: after the first frame "));
+    assert_true(number_behind(whole, "wire: after the first frame ") > 3 * 4096);
+    assert_null(strstr(whole, "update:"));
+    for (unsigned i = 0; i < 4; i++) {
+        char name[2][32];
+        sim_picture_t pictures[2];
+        for (unsigned k = 0; k < 2; k++) {
+            (void)snprintf(name[k], sizeof name[k], "%s-%u.ppm", k ? "less" : "whole", i);
+            assert_int_equal(sim_picture_read(&pictures[k], cli_path(name[k]), NULL), 0);
+            (void)unlink(cli_path(name[k]));
+        }
+        assert_memory_equal(pictures[0].rgb, pictures[1].rgb, 3u * 128 * 64);
+        sim_picture_free(&pictures[0]);
+        sim_picture_free(&pictures[1]);
+    }
+    free(whole);
+    free(less);
+    cli_fails("scene cube --models @ --update 12", "--update", "8");
+    cli_fails("scene cube --models @ --update-full 4", "--update-full", "--update");
+}
+
 static void another_model_takes_the_place_of_the_scene_s(void **state) {
     char *own = cli_good("scene cube --model @/torus.obj --hash"), *cube = cli_good("scene cube --models @ --hash");
     (void)state;
@@ -143,6 +180,7 @@ int main(void) {
         cmocka_unit_test(phases_lie_between_frames),
         cmocka_unit_test(captions_lie_in_the_corners),
         cmocka_unit_test(a_model_of_one_s_own_is_a_scene),
+        cmocka_unit_test(what_has_changed_is_sent_and_told),
         cmocka_unit_test(another_model_takes_the_place_of_the_scene_s),
         cmocka_unit_test(wrong_scenes_are_told),
     };

@@ -211,6 +211,20 @@ static void after_an_error_nothing_is_taken_for_sent(void **state) {
     pair_close();
 }
 
+/* They may lie in memory that was another's before. */
+static void sums_need_not_be_zero_at_first(void **state) {
+    (void)state;
+    open_boxes(16, 16, 2);
+    for (unsigned i = 0; i < 2; i++) {
+        memset(pair.sums, 0xA5, sizeof pair.sums);
+        tuile_update_forget(&pair.update);
+        assert_int_equal(pair_frame(&empty, 0), 153600);
+        assert_int_equal(pair.update.cells_compared, 0);
+        assert_int_equal(pair_frame(&empty, 0), 0); /* nothing was taken for changed nearly everywhere, so sums go on */
+    }
+    pair_close();
+}
+
 static void a_flight_rests_from_sums_and_comes_back(void **state) {
     unsigned summing = 0;
     (void)state;
@@ -411,6 +425,7 @@ int main(void) {
         cmocka_unit_test(several_windows_of_a_tile_do_not_spoil_one_another),
         cmocka_unit_test(a_display_that_asks_for_it_and_every_so_many_frames_get_all),
         cmocka_unit_test(after_an_error_nothing_is_taken_for_sent),
+        cmocka_unit_test(sums_need_not_be_zero_at_first),
         cmocka_unit_test(a_flight_rests_from_sums_and_comes_back),
         cmocka_unit_test(sums_must_have_room),
         cmocka_unit_test(random_boxes_on_every_panel),

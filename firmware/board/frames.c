@@ -7,7 +7,10 @@
  *     error spider zbuffer 3 TEXT
  *     stack 1234 of 4096              used at most, and the room that there is, in bytes
  *
- * Options: frames=N (8), scene=NAME and method=NAME (all), fault=hard, stack or assert: breaks on purpose. */
+ * Options: frames=N (8), scene=NAME and method=NAME (all); columns=N and rows=N, of a tile, by
+ * default all and as many as suit the block; update=N: sends only what has changed, in cells N pixels wide, of tiles of 16 rows if
+ * not told otherwise, and the line of a frame ends with "sent 512 of 4096", bytes of pixels; fault=hard, stack or assert: breaks on
+ * purpose. */
 #include "board.h"
 #include "line.h"
 #include "../player.h"
@@ -22,6 +25,11 @@ __attribute__((noinline)) void frame_ends(void) { __asm__ volatile("" ::: "memor
 
 static tuile_display_t display;
 static player_t player;
+
+/* What update=N takes. The sums lie at the beginning of the block. */
+static tuile_update_t update;
+static tuile_changes_t changes;
+static tuile_change_t change;
 
 static void name_of(line_t *line, const char *kind, const scene_script_t *script, uint8_t method) {
     *line = (line_t){.used = 0};
@@ -47,6 +55,12 @@ static void tell_shown(const scene_script_t *script, uint8_t method, uint32_t fr
     line_number(&line, frame);
     line_word(&line, "passes");
     line_number(&line, player.stats.passes);
+    if (player.update) {
+        line_word(&line, "sent");
+        line_number(&line, update.bytes_sent);
+        line_word(&line, "of");
+        line_number(&line, update.bytes_whole);
+    }
     board_tell(line.text);
     (void)board_stack_used(); /* looks after the guard */
     board_shown();
@@ -61,12 +75,35 @@ static void tell_skipped(const scene_script_t *script, uint8_t method) {
     board_tell(line.text);
 }
 
-static void show(const scene_script_t *script, uint8_t method, uint32_t count) {
+/* Takes room for sums from the block; a block without that room is left with none at all. */
+static void use_update(player_config_t *config, uint32_t cell_width) {
+    const uint32_t width = display.width, height = display.height;
+    const uint32_t tile_width = config->tile_width ? config->tile_width : width;
+    size_t bytes;
+
+    if (!config->tile_height) { config->tile_height = 16; }
+    changes = (tuile_changes_t){.instances = &change, .capacity = 1};
+    update = (tuile_update_t){.sums = config->block, .changes = &changes};
+    if (cell_width < tile_width) { update.cell_width = (uint16_t)cell_width; }
+    update.sum_count =
+        TUILE_UPDATE_CELLS(width, height, tile_width, (uint32_t)config->tile_height, update.cell_width ? cell_width : tile_width);
+    bytes = (update.sum_count * sizeof *update.sums + 7u) / 8u * 8u;
+    config->update = &update;
+    config->block = (uint8_t *)config->block + bytes;
+    config->block_bytes = bytes < config->block_bytes ? config->block_bytes - bytes : 0;
+}
+
+static void show(const scene_script_t *script, uint8_t method, const char *options) {
+    const uint32_t count = line_value(line_option(options, "frames"), 8);
+    const uint32_t cell_width = line_value(line_option(options, "update"), 0);
     player_config_t config = {.display = &display, .method = method};
     int error;
 
     config.model = board_model(script, &config.model_bytes);
     config.block = board_block(&config.block_bytes);
+    config.tile_width = (uint16_t)line_value(line_option(options, "columns"), 0);
+    config.tile_height = (uint16_t)line_value(line_option(options, "rows"), 0);
+    if (cell_width) { use_update(&config, cell_width); }
     error = player_open(&player, script, &config);
     for (uint32_t frame = 0; frame < count && error != TUILE_ERROR_MEMORY; frame++) {
         if (error) { fail(script, method, frame, error); }
@@ -122,7 +159,7 @@ static void tell_stack(void) {
 }
 
 int main(void) {
-    char options[80];
+    char options[128];
     const int error = tuile_display_init(&display, board_display());
 
     board_options(options, sizeof options);
@@ -136,7 +173,7 @@ int main(void) {
         for (uint8_t method = 0; method <= TUILE_TREE; method++) {
             if ((scenes[i]->methods >> method & 1u) && wanted(options, "scene", scenes[i]->name) &&
                 wanted(options, "method", method_names[method])) {
-                show(scenes[i], method, line_value(line_option(options, "frames"), 8));
+                show(scenes[i], method, options);
             }
         }
     }

@@ -1,7 +1,7 @@
 /* Raspberry Pi Pico and Pico 2: a panel on SPI0 (port.h), lines by UART0 on GP0 at 115 200 baud.
  *
  * A button between GP15 and ground is seen. Options are a text in the last sector of a flash of 2 MB, ended by a zero or by erased
- * flash. panel=NAME chooses the panel. */
+ * flash. panel=NAME chooses the panel, clock=MHZ how fast pixels go to it at most (62). */
 #include "../board/board.h"
 #include "../board/line.h"
 #include "../board/models.h"
@@ -64,13 +64,10 @@ static bool names(const char *value, const char *name) {
 }
 
 /* The panel that the options name, or the first. */
-static const tuile_panel_t *find_panel(void) {
+static const tuile_panel_t *find_panel(const char *options) {
     static const tuile_panel_t *const panels[] = {&tuile_st7789_240x240, &tuile_st7789_240x320, &tuile_ili9341};
-    char options[OPTIONS_BYTES];
-    const char *value;
+    const char *value = line_option(options, "panel");
 
-    board_options(options, sizeof options);
-    value = line_option(options, "panel");
     for (unsigned i = 0; i < sizeof panels / sizeof panels[0]; i++) {
         if (value && names(value, panels[i]->name)) { return panels[i]; }
     }
@@ -80,12 +77,17 @@ static const tuile_panel_t *find_panel(void) {
 const tuile_display_config_t *board_display(void) {
     static tuile_bus_t bus;
     static tuile_display_config_t config = {.bus = &bus, .pixel_clock_hz = PIXEL_CLOCK_HZ};
+    char options[OPTIONS_BYTES];
+    const char *clock;
 
+    board_options(options, sizeof options);
     clocks_open();
     port_open(&bus);
     open_uart();
     open_button();
-    config.panel = find_panel();
+    config.panel = find_panel(options);
+    clock = line_option(options, "clock");
+    if (clock) { config.pixel_clock_hz = line_value(clock, 0) * 1000000u; }
     return &config;
 }
 

@@ -44,6 +44,9 @@ test-firmware-lm3s6965evb: $(LM3S)/frames.elf $(LM3S_CORES:%=$(LM3S)-%/frames.el
                            stack-lm3s6965evb size-firmware-lm3s6965evb
 	@$(LM3S_RUN) test $(LM3S)/frames.elf --cpu $(LM3S_ALL) --wanted firmware/lm3s6965evb/frames --tuile $(TUILE) \
 	  --models $(FIRMWARE)/models --out $(LM3S)/out --stack $$($(call STACK,$(LM3S),lm3s6965evb) --quiet)
+	@echo "Sending only what has changed:"
+	@$(LM3S_RUN) test $(LM3S)/frames.elf --cpu cortex-m3 --options 'update=16 rows=8' --wanted firmware/lm3s6965evb/frames --tuile $(TUILE) \
+	  --models $(FIRMWARE)/models --out $(LM3S)/out
 	@echo "Built for each core:"
 	@for core in $(LM3S_CORES); do $(call STACK,$(LM3S)-$$core,lm3s6965evb) --room $(lm3s6965evb_STACK) --quiet >/dev/null || exit 1; done
 	@$(LM3S_RUN) test $(LM3S)/frames.elf --cpu $(subst $(empty) $(empty),$(comma),$(foreach c,$(LM3S_CORES),cortex-$(c):$(LM3S)-$(c)/frames.elf)) \

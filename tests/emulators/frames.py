@@ -15,7 +15,7 @@ class Frames:
         """(scene, method, frame) when the line tells a frame, else None."""
         words = line.split()
         kind = words[0] if words else ""
-        if kind == "frame" and len(words) == 6:
+        if kind == "frame" and len(words) >= 6:
             scene, method, number = words[1], words[2], int(words[3])
             if number != self.shown.get((scene, method), 0):
                 self.faults.append(f"{scene} {method}: frame {number} came, not {self.shown.get((scene, method), 0)}")

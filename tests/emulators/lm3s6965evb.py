@@ -22,10 +22,10 @@ def look(qemu, path):
     return reduce(read_ppm(path), MAGNIFIED)
 
 
-def run_frames(image, cpu, simulator, wanted, count, folder, limit_s):
+def run_frames(image, cpu, options, simulator, wanted, count, folder, limit_s):
     """Faults of one run, as lines; and its Frames."""
     frames, faults = Frames(), []
-    with Qemu("lm3s6965evb", image, f"frames={count}", cpu, limit_s) as qemu:
+    with Qemu("lm3s6965evb", image, f"frames={count} {options}", cpu, limit_s) as qemu:
         while (line := qemu.line()) is not None:
             told = frames.take(line)
             if not told:
@@ -65,7 +65,7 @@ def test(arguments):
     for pair in arguments.cpu.split(","):
         cpu, image = pair.split(":") if ":" in pair else (pair, arguments.image)
         try:
-            faults, frames = run_frames(image, cpu, simulator, wanted, arguments.frames, arguments.out, arguments.limit)
+            faults, frames = run_frames(image, cpu, arguments.options, simulator, wanted, arguments.frames, arguments.out, arguments.limit)
             for name in FAULTS:
                 faults += run_fault(image, cpu, name, arguments.limit)
             faults += frames.too_much_stack(arguments.stack)

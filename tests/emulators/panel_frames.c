@@ -5,12 +5,14 @@
  * TRACE is what an emulator wrote (trace.h) while the board ran firmware/frames.c. A chip of PANEL takes the bytes of the trace,
  * and at each line "frame SCENE METHOD NUMBER ..." it must have been reset, and its glass must be lit and equal that of the
  * simulator, which draws the same frame for the same panel in a block of its own size. MODELS is the folder of the compiled models.
- * Just COUNT frames ("any": how ever many) must come, and no error and no scene that found no room. PICTURES, the beginning of
- * names, receives the glass as PICTURES-SCENE-METHOD-NUMBER.png.
+ * Just COUNT frames ("any": how ever many) must come, and no error. PICTURES, the beginning of names, receives the glass as
+ * PICTURES-SCENE-METHOD-NUMBER.png.
  *
- * One line on stdout; an error ends it with one line on stderr and the code 1. */
+ * The board's lines go to stdout, those of frames with " wire N" behind them, the bytes since the frame before, commands and all;
+ * then one line about all frames. An error ends it with one line on stderr and the code 1. */
 #include "trace.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,6 +43,7 @@ typedef struct frames {
     uint8_t light;
     bool reset; /* its line has been low */
     unsigned count;
+    uint64_t wire_bytes; /* since the last frame */
 } frames_t;
 
 static int read_model(drawn_t *drawn, const char *folder, sim_error_t *error) {
@@ -149,9 +152,13 @@ static int compare(frames_t *frames, const char *line, sim_error_t *error) {
 }
 
 static int text(frames_t *frames, const char *line, sim_error_t *error) {
-    if (strncmp(line, "frame ", 6) == 0) { return compare(frames, line, error); }
-    if (strncmp(line, "skip ", 5) == 0 || strncmp(line, "error ", 6) == 0) { return sim_fail(error, "the board says: %s", line); }
-    return 0;
+    const bool frame = strncmp(line, "frame ", 6) == 0;
+
+    if (strncmp(line, "error ", 6) == 0) { return sim_fail(error, "the board says: %s", line); }
+    (void)(frame ? printf("%s wire %" PRIu64 "\n", line, frames->wire_bytes) : printf("%s\n", line));
+    if (!frame) { return 0; }
+    frames->wire_bytes = 0;
+    return compare(frames, line, error);
 }
 
 static int run(frames_t *frames, FILE *file, const sim_panel_t *panel, sim_error_t *error) {
@@ -162,6 +169,7 @@ static int run(frames_t *frames, FILE *file, const sim_panel_t *panel, sim_error
     if (open_drawn(&frames->drawn, panel, error) || !(frames->chip = panel->create(error))) { return -1; }
     while ((result = trace_next(&trace, &event, error)) > 0) {
         if (event.kind == TRACE_LIGHT) { frames->light = event.flag; }
+        if (event.kind == TRACE_BYTES) { frames->wire_bytes += event.size_bytes; }
         if (event.kind == TRACE_RESET && event.flag == 0) { frames->reset = true; }
         result =
             event.kind == TRACE_TEXT ? text(frames, (const char *)event.bytes, error) : trace_feed(frames->chip, &event, error);
@@ -195,6 +203,7 @@ int main(int count, char **arguments) {
     if (!result && strcmp(arguments[4], "any") != 0 && frames.count != strtoul(arguments[4], NULL, 10)) {
         result = sim_fail(&error, "%u frames, but %s are expected", frames.count, arguments[4]);
     }
+    (void)fflush(stdout);
     if (result) {
         (void)fprintf(stderr, "panel_frames: %s\n", error.text);
     } else {

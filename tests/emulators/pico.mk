@@ -23,6 +23,9 @@ $(PANEL_FRAMES): $(call objects,tests/emulators/panel_frames.c tests/emulators/t
 
 test-firmware-pico: firmware-pico $(pico_MORE)/overlap.elf $(pico_MUTANTS) firmware-models $(PANEL_FRAMES) $(RP2040JS) stack-pico size-firmware-pico
 	@sh tests/emulators/pico.sh $(BUILD) $(PANEL_FRAMES) $$($(call STACK,$(pico_FOLDER),pico) --quiet)
+	@COMPILE='$(pico_TOOLS)gcc $(pico_FLAGS) $(FIRMWARE_FLAGS) $(call scene_bits,$(pico_SCENES)) $(pico_DEFINES) -Ifirmware' \
+	  LINK='$(pico_TOOLS)gcc $(pico_FLAGS) -nostdlib -nostartfiles -Wl,--gc-sections -T firmware/pico/link.ld $(filter-out %/firmware/update.o,$(pico_OBJ))' \
+	  sh tests/emulators/pico_update.sh $(BUILD) $(PANEL_FRAMES)
 
 PANEL ?= st7789-240x240
 emulate-pico: $(pico_FOLDER)/frames.elf firmware-models $(PANEL_FRAMES) $(RP2040JS) ## runs it on an emulated RP2040: frames as PNG, times of each; PANEL=ili9341 OPTIONS='scene=bunny frames=32'

@@ -30,7 +30,8 @@ frames() {
     options="panel=$1 $3"
     shift 3
     emulate "$programs/frames" --trace "$out/$panel.trace" --options "$options" "$@" >"$out/$panel.txt" || fail "$options: $(tail -3 "$out/$panel.txt")"
-    "$panel_frames" "$out/$panel.trace" "$panel" "$build/firmware/models" "$count" || fail "the trace is $out/$panel.trace"
+    "$panel_frames" "$out/$panel.trace" "$panel" "$build/firmware/models" "$count" >"$out/$panel.frames" || fail "the trace is $out/$panel.trace"
+    tail -1 "$out/$panel.frames"
     rm "$out/$panel.trace"
     # Painted stack: what was used is no more than what the call graph says and an interrupt.
     awk -v most="$stack" '$1 == "stack" { used = $2; room = $4 } END { exit !(used > 0 && used <= most + 72 && used <= room) }' "$out/$panel.txt" ||
