@@ -1,12 +1,6 @@
-/* A bus for boards without a panel: what would go over the wire goes to a file of the host, by semihosting.
- * tests/emulators/wire_trace lets a model of the panel's chip read it.
- *
- * The file is a row of records: a letter, the number of bytes that follow (24 bits, little-endian), and those:
- *
- *     c bytes with D/C low       d bytes with D/C high
- *     r level of the reset line  w milliseconds of a pause, 32 bits, little-endian
- *     t a line of text
- */
+/* A bus for boards without a panel: what would go over the wire goes to a file of the host, by semihosting, as
+ * tests/emulators/trace.h describes it. Its time is that of the bytes, at the clocks that the display asks for, and of pauses.
+ * tests/emulators/wire_trace lets a model of the panel's chip read it. */
 #ifndef TUILE_FIRMWARE_BOARD_WIRE_FILE_H
 #define TUILE_FIRMWARE_BOARD_WIRE_FILE_H
 

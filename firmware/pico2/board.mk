@@ -1,5 +1,5 @@
-# Raspberry Pi Pico 2: RP2350, of which the first Cortex-M33 is used, with a panel on SPI0 as on the Pico. No emulator has it: it is built, and
-# its stack, flash and RAM are looked at.
+# Raspberry Pi Pico 2: RP2350, of which the first Cortex-M33 is used, with a panel on SPI0 as on the Pico. No emulator has the chip: its
+# objects run on another with the same core (firmware/mps2/).
 pico2_TOOLS := arm-none-eabi-
 pico2_NEED := pico
 pico2_FLAGS := -mcpu=cortex-m33 -mthumb -mfloat-abi=soft -DRP2350

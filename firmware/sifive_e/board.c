@@ -35,7 +35,8 @@ bool board_button(void) { return false; } /* there is none */
 
 const tuile_display_config_t *board_display(void) {
     static tuile_bus_t bus;
-    static const tuile_display_config_t config = {.bus = &bus, .panel = &tuile_ili9341};
+    static const tuile_display_config_t config = {
+        .bus = &bus, .panel = &tuile_ili9341, .pixel_clock_hz = 10000000}; /* as promised */
 
     if (wire_file_open(&bus, "wire.trace")) { board_park(BOARD_FAILED); }
     return &config;

@@ -16,6 +16,7 @@ from expected import differ
 from frames import read_wanted
 from picture import read_ppm, reduce
 from qemu import EmulatorError, Qemu
+from wire import read_wire
 
 MAGNIFIED = 4  # of QEMU's SSD0323
 PANELS = {"lm3s6965evb": "ssd0323", "sifive_e": "ili9341"}
@@ -132,16 +133,13 @@ def tour_by_hand(arguments, wanted):
 def trace(arguments, wanted):
     """The frames that a board without a panel has put on its wire."""
     folder, faults, told = os.path.join(arguments.out, "board"), [], []
-    os.makedirs(folder, exist_ok=True)
     with Qemu("sifive_e", arguments.image, f"tell=1 every=1 frames={2 * len(wanted)}", None, arguments.limit) as qemu:
         while qemu.line() is not None:
             pass
         faults = finish(qemu, faults)
-        with open(os.path.join(qemu.folder.name, "wire.trace"), "rb") as file:
-            result = subprocess.run([arguments.wire_trace, PANELS["sifive_e"], "0", folder], stdin=file, capture_output=True, text=True,
-                                    check=False)
-    faults += result.stderr.splitlines()
-    for line in result.stdout.splitlines():
+        lines, refused = read_wire(arguments.wire_trace, PANELS["sifive_e"], qemu, folder)
+    faults += refused
+    for line in lines:
         shown = Shown(line)
         told.append(shown)
         if shown.skipped:

@@ -9,7 +9,7 @@ STACK = $(PYTHON) $(EMULATORS)/stack.py $(1)/$(or $(3),frames).elf $(1) --tools 
 # $(call DEMO,BOARD,FOLDER): holds the demo's frames against the simulator's.
 DEMO = $(PYTHON) $(EMULATORS)/demo.py $(1) $(2)/demo.elf --wanted firmware/$(1)/frames --tuile $(TUILE) --models $(FIRMWARE)/models --out $(2)/demo
 
-$(OBJ)/wire_trace: $(OBJ)/tests/emulators/wire_trace.o $(SIM_LIB_OBJ) $(CORE_OBJ)
+$(OBJ)/wire_trace: $(call objects,tests/emulators/wire_trace.c tests/emulators/trace.c) $(SIM_LIB_OBJ) $(CORE_OBJ)
 	@echo "  link $@"; $(CC) $(LDFLAGS) $^ $(LIBS_SIM) -o $@
 
 $(FIRMWARE)/libcount.so: $(EMULATORS)/count.c
@@ -58,17 +58,48 @@ OPTIONS := frames=4
 emulate-lm3s6965evb: $(LM3S)/frames.elf $(FIRMWARE)/libcount.so $(BUILD)/need/emulators ## runs it in QEMU: frames as PNG, instructions of each; OPTIONS='scene=spider frames=32'
 	@$(LM3S_RUN) show $< --out $(LM3S)/frames --plugin $(FIRMWARE)/libcount.so --options '$(OPTIONS)'
 
-# ---- the SiFive E ------------------------------------------------------------------------------------------------------
+# ---- boards without a panel in their emulator: the SiFive E ------------------------------------------------------------
+# $(call WIRE_TEST,BOARD,IMAGE,FOLDER), $(call WIRE_SHOW,BOARD,IMAGE,FOLDER)
+WIRE_TEST = $(PYTHON) $(EMULATORS)/wire_board.py test $(2) --board $(1) --wire-trace $(OBJ)/wire_trace --wanted firmware/$(1)/frames \
+  --tuile $(TUILE) --models $(FIRMWARE)/models --out $(3)/out --stack $$($(call STACK,$(3),$(1)) --quiet)
+WIRE_SHOW = $(PYTHON) $(EMULATORS)/wire_board.py show $(2) --board $(1) --wire-trace $(OBJ)/wire_trace --out $(3)/frames \
+  --plugin $(FIRMWARE)/libcount.so --options '$(OPTIONS)'
 SIFIVE := $(FIRMWARE)/sifive_e
-SIFIVE_RUN = $(PYTHON) $(EMULATORS)/sifive_e.py $(1) $(SIFIVE)/frames.elf --wire-trace $(OBJ)/wire_trace
 
 test-firmware-sifive_e: $(SIFIVE)/frames.elf $(OBJ)/wire_trace $(TUILE) firmware-models $(BUILD)/need/emulators stack-sifive_e size-firmware-sifive_e
-	@$(call SIFIVE_RUN,test) --wanted firmware/sifive_e/frames --tuile $(TUILE) --models $(FIRMWARE)/models --out $(SIFIVE)/out \
-	  --stack $$($(call STACK,$(SIFIVE),sifive_e) --quiet)
+	@$(call WIRE_TEST,sifive_e,$(SIFIVE)/frames.elf,$(SIFIVE))
 	@$(call DEMO,sifive_e,$(SIFIVE)) --wire-trace $(OBJ)/wire_trace
 
 emulate-sifive_e: $(SIFIVE)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so $(BUILD)/need/emulators ## the same
-	@$(call SIFIVE_RUN,show) --out $(SIFIVE)/frames --plugin $(FIRMWARE)/libcount.so --options '$(OPTIONS)'
+	@$(call WIRE_SHOW,sifive_e,$(SIFIVE)/frames.elf,$(SIFIVE))
+
+# ---- Black Pill and Pico 2: their objects on boards of QEMU with the same cores (firmware/mps2/), all but those that touch the chip --------
+MPS2 := $(FIRMWARE)/mps2
+mps2_OWN_blackpill := firmware/blackpill
+mps2_OWN_pico2 := firmware/pico2 firmware/rp2
+mps2_MAP_blackpill := -Wl,--defsym=FLASH_AT=0 -Wl,--defsym=RAM_AT=0x20000000 -Wl,--defsym=RAM_BYTES=128K
+mps2_MAP_pico2 := -Wl,--defsym=FLASH_AT=0x10000000 -Wl,--defsym=RAM_AT=0x80000000 -Wl,--defsym=RAM_BYTES=520K
+
+# $(call mps2_board,BOARD,OBJECTS): MPS2/BOARD/frames.elf. The block is as large as in the board's own program.
+define mps2_board
+$(MPS2)/$(1)/frames.elf: $(MPS2)/$(1)/board.o $(FIRMWARE)/$(1)/frames.elf firmware/mps2/link.ld
+	@echo "  mps2 $$@"; $($(1)_TOOLS)gcc $($(1)_FLAGS) -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings $(mps2_MAP_$(1)) \
+	  -T firmware/mps2/link.ld $$< $(filter-out $(patsubst %,$(FIRMWARE)/$(1)/%/%,$(mps2_OWN_$(1))),$(2)) -lgcc -o $$@
+$(MPS2)/$(1)/board.o: firmware/mps2/board.c $(FIRMWARE)/$(1)/frames.elf
+	@mkdir -p $$(@D)
+	@size=$$$$($($(1)_TOOLS)nm -S $(FIRMWARE)/$(1)/frames.elf | awk '$$$$4 == "block" { print $$$$2 }'); \
+	$($(1)_TOOLS)gcc $($(1)_FLAGS) $(FIRMWARE_FLAGS) $(call scene_bits,$($(1)_SCENES)) -DBLOCK_BYTES=0x$$$$size -MMD -MP -c $$< -o $$@
+
+test-firmware-$(1): $(MPS2)/$(1)/frames.elf $(OBJ)/wire_trace $(TUILE) firmware-models $(BUILD)/need/emulators firmware-$(1) stack-$(1) size-firmware-$(1)
+	@$$(call WIRE_TEST,$(1),$(MPS2)/$(1)/frames.elf,$(FIRMWARE)/$(1))
+.PHONY: emulate-$(1)
+emulate-$(1): $(MPS2)/$(1)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so $(BUILD)/need/emulators
+	@$$(call WIRE_SHOW,$(1),$(MPS2)/$(1)/frames.elf,$(FIRMWARE)/$(1))
+endef
+emulate-blackpill: ## its objects on QEMU's Cortex-M4: frames as PNG, instructions of each; nothing of SPI, DMA and clocks
+emulate-pico2: ## likewise on QEMU's Cortex-M33
+mps2_objects = $(call firmware_objects,$(FIRMWARE)/$(1),$(1)) $(FIRMWARE_MAIN_frames:%.c=$(FIRMWARE)/$(1)/%.o)
+$(foreach board,blackpill pico2,$(eval $(call mps2_board,$(board),$(call mps2_objects,$(board)))))
 
 # ---- all ----------------------------------------------------------------------------------------------------------------
 .PHONY: emulate-lm3s6965evb emulate-sifive_e test-firmware-checks test-firmware-harness

@@ -34,7 +34,3 @@ emulate-pico: $(pico_FOLDER)/frames.elf firmware-models $(PANEL_FRAMES) $(RP2040
 	@$(PANEL_FRAMES) $(pico_FOLDER)/frames/wire $(PANEL) $(FIRMWARE)/models any $(pico_FOLDER)/frames/$(PANEL)
 	@rm $(pico_FOLDER)/frames/wire
 	@echo "Pictures: $(pico_FOLDER)/frames/$(PANEL)-*.png"
-
-# No emulator has these two.
-test-firmware-pico2: firmware-pico2 stack-pico2 size-firmware-pico2
-test-firmware-blackpill: firmware-blackpill stack-blackpill size-firmware-blackpill

@@ -4,6 +4,7 @@
 """
 
 import os
+import struct
 import subprocess
 import sys
 import time
@@ -162,12 +163,22 @@ class Lines(unittest.TestCase):
 
 
 class Trace(unittest.TestCase):
-    """A trace of an ILI9341, by hand."""
+    """A trace of an ILI9341, by hand: trace.h has the format."""
 
-    RESET = b"r\1\0\0\0" + b"w\4\0\0\1\0\0\0" + b"r\1\0\0\1" + b"w\4\0\0\x78\0\0\0"
-    AWAKE = b"c\1\0\0\x11" + b"w\4\0\0\x78\0\0\0" + b"c\1\0\0\x3a" + b"d\1\0\0\x55" + b"c\1\0\0\x29"
-    WINDOW = b"c\1\0\0\x2a" + b"d\4\0\0\0\5\0\5" + b"c\1\0\0\x2b" + b"d\4\0\0\0\7\0\7" + b"c\1\0\0\x2c"
-    LINE = b"t\x0f\0\0frame one two 3"
+    def record(self, kind, flag, payload=b"", ms=0):
+        return struct.pack("<BBHIQ", kind, flag, 0, len(payload), ms * 1000000) + payload
+
+    def send(self, data, payload, ms):
+        return self.record(1, data, struct.pack("<I", 10000000) + payload, ms)
+
+    def command(self, code, payload=b"", ms=300):
+        return self.send(0, bytes([code]), ms) + (self.send(1, payload, ms) if payload else b"")
+
+    def setUp(self):
+        self.reset = self.record(2, 0, ms=0) + self.record(2, 1, ms=1)
+        self.awake = self.command(0x11, ms=130) + self.command(0x3a, b"\x55") + self.command(0x29)
+        self.window = self.command(0x2a, b"\0\5\0\5") + self.command(0x2b, b"\0\7\0\7") + self.command(0x2c)
+        self.line = self.record(4, 0, b"frame one two 3", 300)
 
     def run_trace(self, trace, *arguments):
         return subprocess.run([WIRE_TRACE, *(arguments or ("ili9341", "0", FOLDER))], input=trace, capture_output=True, check=False)
@@ -175,7 +186,7 @@ class Trace(unittest.TestCase):
     def test_a_pixel_arrives_where_it_was_sent(self):
         pictures = []
         for pixel in (b"\xf8\0", b"\0\x1f"):
-            result = self.run_trace(self.RESET + self.AWAKE + self.WINDOW + b"d\2\0\0" + pixel + self.LINE)
+            result = self.run_trace(self.reset + self.awake + self.window + self.send(1, pixel, 300) + self.line)
             self.assertEqual((result.returncode, result.stdout, result.stderr), (0, b"frame one two 3\n", b""))
             pictures.append(read_ppm(os.path.join(FOLDER, "one-two-03.ppm")))
         places = pictures[0].differences(pictures[1])  # all else is what the memory holds when power comes up
@@ -184,13 +195,15 @@ class Trace(unittest.TestCase):
         self.assertEqual(pictures[0].pixel(*places[0])[::-1], pictures[1].pixel(*places[0]))  # red and blue
 
     def test_what_the_chip_refuses_is_an_error(self):
-        for trace in (self.RESET + b"d\1\0\0\x11", self.RESET + self.AWAKE + b"c\1\0\0\x2a" + b"d\3\0\0\0\5\0" + b"c\1\0\0\x2c"):
+        for trace in (self.reset + self.send(1, b"\x11", 130), self.reset + self.command(0x11, ms=2),
+                      self.reset + self.awake + self.command(0x2a, b"\0\5\0") + self.command(0x2c)):
             result = self.run_trace(trace)
             self.assertEqual(result.returncode, 1)
             self.assertIn(b"ILI9341", result.stderr)
 
     def test_broken_traces_are_errors(self):
-        for trace in (b"", b"c", b"c\2\0\0\1", b"x\1\0\0\0", b"w\3\0\0\0\0\0", b"r\2\0\0\0\0"):
+        whole = self.reset + self.line
+        for trace in (b"", whole[:7], whole[:-1], self.record(9, 0), self.record(1, 0, b"abc"), b"\2\1\1\0" + bytes(12)):
             result = self.run_trace(trace)
             self.assertEqual(result.returncode, 1, trace)
             self.assertEqual(result.stderr.count(b"\n"), 1)

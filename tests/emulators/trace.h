@@ -1,4 +1,4 @@
-/* What an emulator saw on the wires of a panel, as a file.
+/* What an emulator saw on the wires of a panel, or a board without one would put on them (firmware/board/wire_file.c), as a file.
  *
  * One record after another, each of 16 bytes and a payload: kind, flag, two bytes of zero, the payload's size in bytes (32 bits),
  * and the time in nanoseconds since the start (64 bits). Little-endian.

@@ -1,11 +1,10 @@
-"""The SiFive E in QEMU: what it puts on the wire, read by the model of the panel's chip, against the simulator's frames.
+"""Boards whose emulator has no panel, in QEMU: what they put on the wire, read by the model of a panel's chip, against the simulator's frames.
 
-    sifive_e.py test IMAGE --wire-trace PROGRAM   compares every frame; faults on purpose must be told apart
-    sifive_e.py show IMAGE --wire-trace PROGRAM --out FOLDER   saves the frames as PNG
+    wire_board.py test IMAGE --board sifive_e --wire-trace PROGRAM   compares every frame; faults on purpose must be told apart
+    wire_board.py show IMAGE --board sifive_e --wire-trace PROGRAM --out FOLDER   saves the frames as PNG
 """
 
 import os
-import subprocess
 import sys
 
 from expected import Simulator, differ
@@ -13,32 +12,32 @@ from frames import FAULTS, Frames, read_wanted
 from picture import read_ppm
 from qemu import Qemu, counted_frames
 from script import run_script, verdict
+from wire import read_wire
 
-PANEL = "ili9341"
+# The machine, its core, and the panel: firmware/BOARD/board.c, or firmware/mps2/ with the board's other objects.
+BOARDS = {
+    "sifive_e": ("sifive_e", "rv32imac", "ili9341"),
+    "blackpill": ("mps2-an386", "cortex-m4", "st7789-240x240"),
+    "pico2": ("mps2-an505", "cortex-m33", "st7789-240x240"),
+}
 
 
 def run(arguments, options, folder):
     """The lines that were told, what is to be complained of, and the exit code; the pictures are in the folder."""
+    machine, _, panel = BOARDS[arguments.board]
     more = counted_frames(arguments.plugin, arguments.image) if arguments.plugin else []
-    with Qemu("sifive_e", arguments.image, options, None, arguments.limit, more) as qemu:
+    with Qemu(machine, arguments.image, options, None, arguments.limit, more) as qemu:
         while qemu.line() is not None:
             pass
         code, complaints = qemu.end()
-        trace = os.path.join(qemu.folder.name, "wire.trace")
-        os.makedirs(folder, exist_ok=True)
-        if not os.path.exists(trace):
-            return [], complaints + ["there is no wire.trace"], code
-        with open(trace, "rb") as file:
-            result = subprocess.run([arguments.wire_trace, PANEL, "0", folder], stdin=file, capture_output=True, text=True, check=False)
-    complaints += result.stderr.splitlines()
-    if result.returncode and not result.stderr:
-        complaints.append(f"wire_trace ended with {result.returncode}")
-    return result.stdout.splitlines(), complaints, code
+        lines, refused = read_wire(arguments.wire_trace, panel, qemu, folder)
+    return lines, complaints + refused, code
 
 
 def test(arguments):
     wanted, frames = read_wanted(arguments.wanted), Frames()
-    simulator = Simulator(arguments.tuile, arguments.models, PANEL, os.path.join(arguments.out, "simulator"))
+    _, core, panel = BOARDS[arguments.board]
+    simulator = Simulator(arguments.tuile, arguments.models, panel, os.path.join(arguments.out, "simulator"))
     folder = os.path.join(arguments.out, "board")
     lines, faults, code = run(arguments, f"frames={arguments.frames}", folder)
     if code:
@@ -58,7 +57,7 @@ def test(arguments):
         if code != expected:
             faults.append(f"fault={name}: ended with {code}, not {expected}")
     faults += frames.too_much_stack(arguments.stack)
-    return 0 if verdict("rv32imac", faults, frames) else 1
+    return 0 if verdict(f"{arguments.board}, {core}", faults, frames) else 1
 
 
 def show(arguments):
@@ -84,6 +83,7 @@ def show(arguments):
 
 
 def more(parser):
+    parser.add_argument("--board", required=True, choices=tuple(BOARDS))
     parser.add_argument("--wire-trace", required=True, help="the program that reads the trace")
 
 
