@@ -44,18 +44,21 @@ $(OBJ)/bench: $(OBJ)/tests/bench/bench.o $(SIM_LIB_OBJ) $(CORE_OBJ)
 ROOT ?=
 BENCH_GUEST ?= $(BENCH_OUT)/guest
 BENCH_GUEST_SRC := $(patsubst $(ROOT)%,%,$(filter-out $(addprefix $(ROOT)raster/,compact/%),$(wildcard $(ROOT)raster/*.c $(ROOT)raster/*/*.c)))
-guest_objects = $(foreach t,$(filter $(BENCH_GUESTS),$(1)),$(patsubst %.c,$(BENCH_GUEST)/$(t)/%.o,$(BENCH_GUEST_SRC)))
+GUESTS ?= $(BENCH_GUESTS)
 define guest_target
 $(BENCH_GUEST)/$(1)/%.o: $(ROOT)%.c $(BENCH)/qemu/target.sh | $(BUILD)/need/bench-targets
 	@mkdir -p $$(@D)
 	@echo "  $(1) $$<"; sh $(BENCH)/qemu/cc.sh $(1) -MMD -MP -c $$< -o $$@
 endef
 $(foreach target,$(BENCH_GUESTS),$(eval $(call guest_target,$(target))))
+.PHONY: bench-guests
+bench-guests: $(foreach t,$(filter $(BENCH_GUESTS),$(GUESTS)),$(patsubst %.c,$(BENCH_GUEST)/$(t)/%.o,$(BENCH_GUEST_SRC))) ;
+make_guests = $(if $(filter $(BENCH_GUESTS),$(1)),$(MAKE) --no-print-directory -j$(BENCH_JOBS) bench-guests GUESTS='$(1)')
 
 BENCH_PROGRAMS := $(OBJ)/bench $(OBJ)/guest_scene $(FIRMWARE)/libcount.so $(TUILE)
 BENCH_COMMON = --bench $(OBJ)/bench --scene $(OBJ)/guest_scene --guest $(BENCH_GUEST) --plugin $(FIRMWARE)/libcount.so --tuile $(TUILE) \
                --out $(BENCH_OUT) --jobs $(BENCH_JOBS) $(addprefix --known ,$(BENCH_KNOWN))
-bench_needs = $(BENCH_PROGRAMS) $(BUILD)/need/bench $(call bench_from,$(1)) $(call guest_objects,$(2))
+bench_needs = $(BENCH_PROGRAMS) $(BUILD)/need/bench $(call bench_from,$(1))
 
 # ---- make bench ----------------------------------------------------------------------------------------------------------
 # Boards draw their own scenes; both programs print the cycles of each frame.
@@ -64,9 +67,33 @@ BENCH_RP2040 = $(EMULATE_RP2040) --program $(pico_FOLDER)/frames.elf --options '
 bench_board_needs = $(if $(filter atmega328p,$(1)),$(OBJ)/uno $(UNO)/frames.elf) $(if $(filter rp2040,$(1)),$(pico_FOLDER)/frames.elf $(RP2040JS))
 
 .PHONY: bench bench-methods bench-instances bench-linux
-bench: $(call bench_needs,$(MODEL),$(TARGETS)) $(call bench_board_needs,$(TARGETS)) ## what frames cost, by callgrind, QEMU and the boards' emulators; MODEL='NAME FILE ...' TILE=WxH SIZE=WxH TARGETS= METHODS= SHADES=
+bench: $(call bench_needs,$(MODEL)) $(call bench_board_needs,$(TARGETS)) ## what frames cost, by callgrind, QEMU and the boards' emulators; MODEL='NAME FILE ...' TILE=WxH SIZE=WxH TARGETS= METHODS= SHADES=
+	@$(call make_guests,$(TARGETS))
 	@$(PYTHON) $(BENCH)/bench.py rows $(BENCH_COMMON) --size $(SIZE) --tiles '$(TILE)' --targets '$(TARGETS)' --methods '$(METHODS)' \
 	  --shades '$(SHADES)' --memory $(MEMORY) --board 'atmega328p=$(BENCH_UNO)' --board "rp2040=$(BENCH_RP2040)" $(MODEL)
+
+# ---- the budget ----------------------------------------------------------------------------------------------------------
+# The list of what is counted, and the most that each may take: tests/bench/budget.
+BENCH_BUDGET = $(PYTHON) $(BENCH)/budget.py $(1) $(BENCH_COMMON) --file $(BENCH)/budget --readme README.md
+
+.PHONY: bench-budget bench-budget-write test-bench
+bench-budget: $(BENCH)/budget $(call bench_needs,spider) ## fails when a frame takes over one per cent more instructions than tests/bench/budget says
+	@$(call make_guests,$(BENCH_GUESTS))
+	@$(call BENCH_BUDGET,check)
+bench-budget-write: $(BENCH)/budget $(call bench_needs,spider) ## writes tests/bench/budget, and the README's table of it, anew
+	@$(call make_guests,$(BENCH_GUESTS))
+	@$(call BENCH_BUDGET,write)
+
+test-bench: $(call bench_needs,) # that the bench's scripts find what they look for
+	@$(call make_guests,cortex-m3)
+	@$(PYTHON) $(BENCH)/test_bench.py $(BENCH_OUT)/test $(BENCH_COMMON)
+
+# ---- tables of the README ------------------------------------------------------------------------------------------------
+.PHONY: bench-table bench-table-check
+bench-table: ## rows of the README's "Speed" from build/bench/bench.json, for the first MODEL that make bench has counted in TILE='320x24 32x32'
+	@$(PYTHON) $(BENCH)/readme.py print $(BENCH_OUT)/bench.json $(basename $(notdir $(firstword $(MODEL))))
+bench-table-check: ## that the README's "Speed" says the same
+	@$(PYTHON) $(BENCH)/readme.py check $(BENCH_OUT)/bench.json $(basename $(notdir $(firstword $(MODEL)))) README.md
 
 # ---- others ---------------------------------------------------------------------------------------------------------------
 # Four scenes, each compiled without and with a display tree: NAME[@EYE@AT@FOV], model units.
