@@ -194,6 +194,34 @@ static void test_status_is_read_after_each_set_where_the_device_wants_it(void **
     gud_stand_finish(&stand);
 }
 
+/* No bytes are no status, and least of all "no error": a set that is not confirmed has failed, whether the device stalls it or not.
+ */
+static void test_empty_answer_is_no_status(void **state) {
+    static const struct {
+        bool status_on_set;
+        const char *text;
+    } cases[] = {
+        {true, "usb 1-2: SET_STATE_CHECK: no status: an empty answer"},
+        {false, "usb 1-2: SET_STATE_CHECK: stalled; no status: an empty answer"},
+    };
+
+    (void)state;
+    for (unsigned i = 0; i < 2; i++) {
+        const sim_gud_config_t config = {.width = 16, .height = 8, .status_on_set = cases[i].status_on_set, .backlight = true};
+        gud_stand_t stand;
+
+        gud_stand_start(&stand, &config, 0, 0);
+        gud_stand_draw(&stand, &(usb_card_way_t){.seed = 75}, 0);
+        sim_gud_break(stand.model, SIM_GUD_SILENT);
+        assert_int_equal(tuile_display_brightness(&stand.display, 30), TUILE_HAL_PROTOCOL);
+        assert_string_equal(stand.gud.error_text, cases[i].text);
+        sim_gud_break(stand.model, 0);
+        assert_int_equal(tuile_display_resume(&stand.display), 0);
+        gud_stand_draw(&stand, &(usb_card_way_t){.seed = 76}, 0);
+        gud_stand_finish(&stand);
+    }
+}
+
 /* A device that refuses everything is put to sleep in vain, but what is told is where it began. */
 static void test_text_is_that_of_the_first_fault(void **state) {
     gud_stand_t stand;
@@ -546,6 +574,7 @@ int main(void) {
         cmocka_unit_test_setup(test_rotation_is_the_devices_property, mock_usb_set_up),
         cmocka_unit_test_setup(test_rotation_that_the_device_does_not_have, mock_usb_set_up),
         cmocka_unit_test_setup(test_status_is_read_after_each_set_where_the_device_wants_it, mock_usb_set_up),
+        cmocka_unit_test_setup(test_empty_answer_is_no_status, mock_usb_set_up),
         cmocka_unit_test_setup(test_text_is_that_of_the_first_fault, mock_usb_set_up),
         cmocka_unit_test_setup(test_sleep_and_resume, mock_usb_set_up),
         cmocka_unit_test_setup(test_requests_in_the_kernels_order, mock_usb_set_up),

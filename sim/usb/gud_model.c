@@ -159,7 +159,7 @@ static int get(sim_gud_t *gud, uint8_t request, uint32_t value, uint8_t *data, s
         gud->status_due = false;
         if (length != 1) { return REFUSE(gud, SIM_GUD_PROTOCOL_ERROR, "GET_STATUS asks for %zu bytes, not 1", length); }
         data[0] = gud->status;
-        return 1;
+        return gud->broken != SIM_GUD_SILENT;
     }
     if ((request & 0xF0u) != 0x50 || request == GET_CONNECTORS) {
         if (value) { return REFUSE(gud, SIM_GUD_INVALID_PARAMETER, "request %02X has a value, %u", request, value); }

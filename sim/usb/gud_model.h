@@ -23,6 +23,7 @@ enum {
     SIM_GUD_PROTOCOL_ERROR = 3,
     SIM_GUD_INVALID_PARAMETER = 4,
     SIM_GUD_ERROR = 5,
+    SIM_GUD_SILENT = 255, /* of sim_gud_break: nothing, an answer of no bytes */
 };
 
 enum { SIM_GUD_DISCONNECTED = 0, SIM_GUD_CONNECTED = 1, SIM_GUD_UNKNOWN = 2 };
