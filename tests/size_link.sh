@@ -29,9 +29,11 @@ size_link() {
         roots="$roots -Wl,-u,$symbol"
     done
     prefix=$4
+    # As firmware is built: gcc 12 makes wrong code for v6-M without the flag (firmware/firmware.mk).
+    case $cpu in cortex-m0*) cores=-fno-ipa-ra ;; *) cores= ;; esac
     shift 4
     # shellcheck disable=SC2086
-    "${prefix}gcc" -mcpu="$cpu" -mthumb -Os "$@" -I. -ffunction-sections -fdata-sections -fno-tree-loop-distribute-patterns -nostdlib \
+    "${prefix}gcc" -mcpu="$cpu" -mthumb -Os $cores "$@" -I. -ffunction-sections -fdata-sections -fno-tree-loop-distribute-patterns -nostdlib \
         -Wl,--gc-sections -Wl,-e,main $roots "$folder/board.c" raster/*.c raster/*/*.c -lgcc -o "$out"
     bytes=$("${prefix}size" "$out" | awk 'NR == 2 { print $1 }')
     if "${prefix}size" "$out" | awk 'NR == 2 { exit $2 + $3 == 0 }'; then
