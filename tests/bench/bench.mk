@@ -71,6 +71,17 @@ bench: $(call bench_needs,$(MODEL)) $(call bench_board_needs,$(TARGETS)) ## what
 	@$(call make_guests,$(TARGETS))
 	@$(PYTHON) $(BENCH)/bench.py rows $(BENCH_COMMON) --size $(SIZE) --tiles '$(TILE)' --targets '$(TARGETS)' --methods '$(METHODS)' \
 	  --shades '$(SHADES)' --memory $(MEMORY) --board 'atmega328p=$(BENCH_UNO)' --board "rp2040=$(BENCH_RP2040)" $(MODEL)
+	@$(PYTHON) $(BENCH)/charts.py $(BENCH_OUT)
+
+# ---- charts --------------------------------------------------------------------------------------------------------------
+# The cost against faces, of the first model, and against pixels and memory, of the second.
+SWEEP_TARGETS ?= x86-64 cortex-m3
+SWEEP_MODELS ?= bunny spider
+.PHONY: bench-charts
+bench-charts: $(call bench_needs,$(SWEEP_MODELS)) ## counts for some minutes, and draws build/bench/*.svg: phases (of make bench), cost against faces, pixels, memory
+	@$(call make_guests,$(SWEEP_TARGETS))
+	@$(PYTHON) $(BENCH)/bench.py sweep $(BENCH_COMMON) --targets '$(SWEEP_TARGETS)' $(SWEEP_MODELS)
+	@$(PYTHON) $(BENCH)/charts.py $(BENCH_OUT)
 
 # ---- the budget ----------------------------------------------------------------------------------------------------------
 # The list of what is counted, and the most that each may take: tests/bench/budget.
@@ -87,6 +98,16 @@ bench-budget-write: $(BENCH)/budget $(call bench_needs,spider) ## writes tests/b
 test-bench: $(call bench_needs,) # that the bench's scripts find what they look for
 	@$(call make_guests,cortex-m3)
 	@$(PYTHON) $(BENCH)/test_bench.py $(BENCH_OUT)/test $(BENCH_COMMON)
+	@$(PYTHON) $(BENCH)/test_charts.py $(BENCH_OUT)/test
+
+# ---- what a change did ---------------------------------------------------------------------------------------------------
+# By the z-buffer in strips, where METHODS and TILE are not given.
+usual = $(if $(filter file,$(origin $(1))),$(2),$($(1)))
+.PHONY: bench-compare
+bench-compare: $(call bench_needs,$(MODEL)) ## counts BASE=REVISION and this tree: before, after and per cent, by phase; MODEL= TARGETS= METHODS= SHADES= as of bench
+	@$(call make_guests,$(TARGETS))
+	@$(PYTHON) $(BENCH)/compare.py $(BENCH_COMMON) '--base=$(BASE)' --make '$(MAKE)' --size $(SIZE) --tiles '$(call usual,TILE,320x24)' \
+	  --targets '$(TARGETS)' --methods '$(call usual,METHODS,zbuffer)' --shades '$(SHADES)' --memory $(MEMORY) $(MODEL)
 
 # ---- tables of the README ------------------------------------------------------------------------------------------------
 .PHONY: bench-table bench-table-check

@@ -26,12 +26,7 @@ def parse():
     parser.add_argument("command", choices=("rows", "sweep"))
     parser.add_argument("models", nargs="+")
     add_common(parser)
-    parser.add_argument("--size", default="320x240")
-    parser.add_argument("--tiles", default="320x24")
-    parser.add_argument("--targets", default=rows.HOST)
-    parser.add_argument("--methods", default="zbuffer")
-    parser.add_argument("--shades", default=" ".join(rows.SHADES))
-    parser.add_argument("--memory", default="4M")
+    add_choice(parser)
     parser.add_argument("--board", action="append", default=[], metavar="TARGET=COMMAND", help="what prints the frames of a board")
     return parser.parse_args()
 
@@ -45,6 +40,15 @@ def add_common(parser):
     parser.add_argument("--out", required=True)
     parser.add_argument("--known", action="append", default=[], metavar="NAME=FILE[:FACES]")
     parser.add_argument("--jobs", type=int, default=0)
+
+
+def add_choice(parser):
+    parser.add_argument("--size", default="320x240")
+    parser.add_argument("--tiles", default="320x24")
+    parser.add_argument("--targets", default=rows.HOST)
+    parser.add_argument("--methods", default="zbuffer")
+    parser.add_argument("--shades", default=" ".join(rows.SHADES))
+    parser.add_argument("--memory", default="4M")
 
 
 def known_models(texts):

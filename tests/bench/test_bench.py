@@ -12,6 +12,7 @@ import unittest
 import bench
 import boards
 import budget
+import compare
 import readme
 import rows
 from rows import BenchError
@@ -162,6 +163,25 @@ class Words(unittest.TestCase):
         self.assertEqual([(spec["target"], spec["method"], spec["tile"], path) for spec, path in wanted],
                          [("x86-64", "zbuffer", "320x24", "a"), ("cortex-m3", "zbuffer", "320x24", "a"), ("x86-64", "tree", "320x24", "a-tree"),
                           ("x86-64", "zbuffer", "32x32", "a"), ("x86-64", "tree", "32x32", "a-tree")])
+
+
+class Comparing(unittest.TestCase):
+    def test_per_cent_of_what_it_took(self):
+        for before, after, text in ((200, 250, "+25.0"), (200, 100, "-50.0"), (100000, 100001, "0.0"), (100000, 99999, "0.0"), (0, 5, "new"), (0, 0, ""),
+                                    (10, 9, "-10.0")):
+            self.assertEqual(compare.change(before, after), text)
+
+    def test_the_table_has_before_after_and_change(self):
+        rows_of_two = [dict(zip(rows.KEY, ("a", "x86-64", "flat", "320x240", "320x24", 1, "tree")), total=total,
+                            phases=dict(zip(rows.PHASES, (total, 0, 0, 0, 0, 0, 0)))) for total in (1000, 900)]
+        name, head, before, after, change = compare.table([rows_of_two])
+        self.assertEqual((name, head.split()[:2]), ("a x86-64 tree flat 320x240 in 320x24", ["total", "vertex"]))
+        self.assertEqual((before.split()[:3], after.split()[:3], change.split()), (["before", "1000", "1000"], ["after", "900", "900"], ["%", "-10.0", "-10.0"]))
+
+    def test_a_base_that_is_none(self):
+        for base, word in (("", "BASE=REVISION is wanted"), ("no-such-revision", "no such revision"), ("--all", "no such revision")):
+            with self.assertRaisesRegex(BenchError, word):
+                compare.commit_of(base)
 
 
 class Profiles(unittest.TestCase):
