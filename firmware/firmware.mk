@@ -7,6 +7,14 @@ BOARDS := $(patsubst firmware/%/board.mk,%,$(wildcard firmware/*/board.mk))
 # -fipa-ra, that the function leaves them alone: polygons were filled from one side of the window to the other.
 FIRMWARE_V6M := -mthumb -fno-ipa-ra
 
+# frames is what tests run, demo what is put on a board.
+FIRMWARE_PROGRAMS := frames demo
+
+# Where the programs of $(call firmware_folder,BOARD) are: with MODEL=FILE elsewhere, so that those without it stay as they are.
+FIRMWARE_OWN := $(if $(MODEL),-model)
+FIRMWARE_BUILT := $(if $(MODEL),demo,$(FIRMWARE_PROGRAMS))
+firmware_folder = $(FIRMWARE)/$(1)$(FIRMWARE_OWN)
+
 include $(patsubst %,firmware/%/board.mk,$(BOARDS))
 
 $(BUILD)/need/riscv: ; $(call need,gcc-riscv64-unknown-elf,a compiler for RISC-V)
@@ -33,9 +41,7 @@ $(FIRMWARE)/models/%.tuile: $(TUILE)
 firmware-models: $(FIRMWARE_MODELS:%=$(FIRMWARE)/models/%.tuile) ## the models of the scenes, for `tuile scene`
 
 # ---- programs -------------------------------------------------------------------------------------------------------
-# frames is what tests run, demo what is put on a board: each a file with a main. What every board builds beside them, its own folder and
-# BOARD_SRC; what it does not use is left out by the linker.
-FIRMWARE_PROGRAMS := frames demo
+# What every board builds beside the files with a main, its own folder and BOARD_SRC. What it does not use is left out by the linker.
 FIRMWARE_MAIN_frames := firmware/board/frames.c
 FIRMWARE_MAIN_demo := firmware/demo/demo.c
 FIRMWARE_SRC := $(filter-out $(FIRMWARE_MAIN_frames),$(wildcard raster/*.c raster/*/*.c hal/*.c firmware/*.c firmware/board/*.c))
@@ -56,9 +62,16 @@ comma := ,
 empty :=
 scene_bits = -DSCENES=\($(subst $(empty) $(empty),+,$(foreach s,$(1),$(scene_bit_$(s))))\)
 
-# $(call firmware_objects,FOLDER,BOARD): what all programs of a board are linked from.
-firmware_objects = $(patsubst %.c,$(1)/%.o,$(FIRMWARE_SRC) $(wildcard firmware/$(2)/*.c) $($(2)_SRC)) $(1)/firmware/font.o \
-                   $(patsubst %,$(1)/model_%.o,$($(2)_SCENES))
+# What all programs of a board are linked from: $(call firmware_scenes,FOLDER,SCENES), which differ by scenes, and $(call firmware_code,
+# FOLDER,BOARD), which do not; $(call firmware_objects,FOLDER,BOARD): both.
+FIRMWARE_SCENES_SRC := firmware/scenes.c firmware/board/models.c
+firmware_scenes = $(FIRMWARE_SCENES_SRC:%.c=$(1)/%.o) $(patsubst %,$(1)/model_%.o,$(2))
+firmware_code = $(patsubst %.c,$(1)/%.o,$(filter-out $(FIRMWARE_SCENES_SRC),$(FIRMWARE_SRC)) $(wildcard firmware/$(2)/*.c) $($(2)_SRC)) \
+                $(1)/firmware/font.o
+firmware_objects = $(call firmware_code,$(1),$(2)) $(call firmware_scenes,$(1),$($(2)_SCENES))
+# Those of a board as it is built now, with MODEL=FILE or without.
+firmware_linked = $(call firmware_code,$(FIRMWARE)/$(1),$(1)) \
+                  $(call firmware_scenes,$(call firmware_folder,$(1)),$(if $(FIRMWARE_OWN),model,$($(1)_SCENES)))
 
 # $(call firmware_compile,BOARD,FLAGS,SCENES), $(call firmware_data,BOARD,FLAGS), $(call firmware_link,BOARD,FLAGS): recipes. The last one
 # writes a map, a .bin and a .hex beside the target.
@@ -71,7 +84,7 @@ define firmware_data
 	@$($(1)_TOOLS)gcc $(2) -std=c11 -ffreestanding -fdata-sections -c $< -o $@
 endef
 define firmware_link
-	@echo "  $(1) $@"; $($(1)_TOOLS)gcc $(2) -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings -Wl,-Map,$(@:.elf=.map) \
+	@echo "  $(1) $@"; $(firmware_linker) $($(1)_TOOLS)gcc $(2) -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings -Wl,-Map,$(@:.elf=.map) \
 	  -T firmware/$(1)/link.ld $(filter %.o,$^) -lgcc -o $@
 	@$($(1)_TOOLS)objcopy -O binary $@ $(@:.elf=.bin)
 	@$($(1)_TOOLS)objcopy -O ihex $@ $(@:.elf=.hex)
@@ -92,12 +105,37 @@ $(1)/%.o: %.c Makefile firmware/firmware.mk firmware/$(2)/board.mk | toolchain-$
 	$$(call firmware_compile,$(2),$(3),$$($(2)_SCENES))
 endef
 
+# With MODEL=FILE the programs have that model as their only scene, and a folder of their own, beside that of the others. The model is
+# compiled anew each time, and what depends on it is made if it has changed.
+ifneq ($(FIRMWARE_OWN),)
+FIRMWARE_MODEL := $(FIRMWARE)/model
+.PHONY: compile-model
+compile-model: ;
+$(FIRMWARE_MODEL)/model.c: compile-model $(TUILE)
+	@sh firmware/demo/model.sh compile $(TUILE) $(@D)
+
+define firmware_own
+$(call firmware_folder,$(1))/model_model.o: $(FIRMWARE_MODEL)/model.c | toolchain-$(1)
+	$$(call firmware_data,$(1),$($(1)_FLAGS))
+$(FIRMWARE_SCENES_SRC:%.c=$(call firmware_folder,$(1))/%.o): $(call firmware_folder,$(1))/%.o: %.c Makefile firmware/firmware.mk firmware/$(1)/board.mk | toolchain-$(1)
+	$$(call firmware_compile,$(1),$($(1)_FLAGS),model)
+$(FIRMWARE_PROGRAMS:%=$(call firmware_folder,$(1))/%.elf): firmware_linker = sh firmware/demo/model.sh link $(TUILE) $(FIRMWARE_MODEL) $(1) $$@
+$(FIRMWARE_PROGRAMS:%=$(call firmware_folder,$(1))/%.elf): $$(call firmware_linked,$(1)) firmware/$(1)/link.ld
+	$$(call firmware_link,$(1),$($(1)_FLAGS))
+	@sh firmware/demo/model.sh ram $(TUILE) $(FIRMWARE_MODEL) $(1) $($(1)_PANEL) \
+	  $$$$((0x$$$$($($(1)_TOOLS)nm -S $$@ | awk '$$$$4 == "block" { print $$$$2 }')))
+$(foreach p,$(FIRMWARE_PROGRAMS),$(call firmware_folder,$(1))/$(p).elf: $(FIRMWARE_MAIN_$(p):%.c=$(FIRMWARE)/$(1)/%.o)
+)
+endef
+$(foreach board,$(BOARDS),$(eval $(call firmware_own,$(board))))
+endif
+
 define firmware_board
 $(call firmware_program,$(FIRMWARE)/$(1),$(1),$($(1)_FLAGS))
 .PHONY: firmware-$(1) toolchain-$(1)
 firmware: firmware-$(1)
-firmware-$(1): $(FIRMWARE_PROGRAMS:%=$(FIRMWARE)/$(1)/%.elf)
-	@$($(1)_TOOLS)size $(FIRMWARE_PROGRAMS:%=$(FIRMWARE)/$(1)/%.elf)
+firmware-$(1): $(patsubst %,$(call firmware_folder,$(1))/%.elf,$(FIRMWARE_BUILT))
+	@$($(1)_TOOLS)size $$(filter %.elf,$$^)
 toolchain-$(1): $(BUILD)/need/$($(1)_NEED)
 	@command -v $($(1)_TOOLS)gcc >/dev/null || { echo "$(1): $($(1)_TOOLS)gcc is not there, though its package is; look at PATH" >&2; exit 1; }
 endef
@@ -105,4 +143,7 @@ $(foreach board,$(BOARDS),$(eval $(call firmware_board,$(board))))
 
 firmware: ## every board's programs: elf, bin and hex in build/firmware/BOARD
 firmware-%:
-	@echo "There is no board $*; there are: $(BOARDS)" >&2; exit 1
+	@echo "There is no board $*; there are: $(BOARDS) uno" >&2; exit 1
+FLASHED := pico pico2 blackpill
+flash-%:
+	@echo "There is no board $* that is flashed from here; there are: $(FLASHED)" >&2; exit 1

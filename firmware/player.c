@@ -44,6 +44,7 @@ int player_open(player_t *player, const scene_script_t *script, const player_con
     if ((error = scene_open(&player->stage, script, config->model, config->model_bytes, layout.width, layout.height))) {
         return error;
     }
+    if (config->method == TUILE_TREE && !player->stage.model.tree) { return TUILE_ERROR_TREE; }
     scene_configure(&player->stage, &layout);
     return lay_out(player, &layout, config);
 }

@@ -33,7 +33,7 @@ typedef struct player {
 } player_t;
 
 /* Lays the renderer out for the script and the display. 0 or an error of either kind (tuile_stream_error_text);
- * TUILE_ERROR_ARGUMENT also for a method that the script does not name. */
+ * TUILE_ERROR_ARGUMENT also for a method that the script does not name, TUILE_ERROR_TREE when its model has no tree for it. */
 int player_open(player_t *player, const scene_script_t *script, const player_config_t *config);
 
 /* Draws one frame and shows it, or what has changed of it. 0 or an error of either kind. */

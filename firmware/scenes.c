@@ -51,6 +51,7 @@ static int turn(scene_stage_t *stage, bam16_t phase) {
 
 /* ---- a room that the camera looks round in ------------------------------------------------------------------------- */
 
+#if SCENES & SCENE_ROOM
 /* World units are 1/256 m; the room is 4 x 2.5 x 6 m, the floor at y = 0. */
 #define METRES(m) TUILE_Q16((m)*256)
 
@@ -68,6 +69,7 @@ static int look_round(scene_stage_t *stage, bam16_t phase) {
     camera->far = METRES(8);
     return tuile_camera_orbit(camera, middle, METRES(2.25), (bam16_t)(swing >> 30), pitch, 0);
 }
+#endif
 
 /* ---- the list ---------------------------------------------------------------------------------------------------- */
 

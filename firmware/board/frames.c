@@ -105,6 +105,7 @@ static void show(const scene_script_t *script, uint8_t method, const char *optio
     config.tile_height = (uint16_t)line_value(line_option(options, "rows"), 0);
     if (cell_width) { use_update(&config, cell_width); }
     error = player_open(&player, script, &config);
+    if (error == TUILE_ERROR_TREE) { return; } /* a model of one's own, without one */
     for (uint32_t frame = 0; frame < count && error != TUILE_ERROR_MEMORY; frame++) {
         if (error) { fail(script, method, frame, error); }
         frame_begins();

@@ -3,6 +3,7 @@ pico_TOOLS := arm-none-eabi-
 pico_NEED := pico
 pico_FLAGS := -mcpu=cortex-m0plus $(FIRMWARE_V6M)
 pico_STACK := 8160 # bytes: link.ld's room without the guard
+pico_PANEL := st7789-240x240
 pico_SCENES := cube room spider bunny
 pico_DEFINES := -DTUILE_FEATURES=576 -DTUILE_FORMATS=1
 pico_BOOT2 := $(BUILD)/firmware/pico-boot2
@@ -50,14 +51,14 @@ $(pico_MORE)/two_cores.o: firmware/rp2/programs/two_cores.c
 	$(call pico_compile,-DTUILE_CORES=2)
 $(pico_MORE)/clocks.o: firmware/rp2/clocks.c
 	$(call pico_compile,-DTUILE_CORES=2)
-firmware-pico: $(pico_MORE)/two_cores.elf
+firmware-pico: $(if $(FIRMWARE_OWN),,$(pico_MORE)/two_cores.elf)
 
 # ---- onto a board ----
-pico_UF2 := $(pico_FOLDER)/frames.uf2 $(pico_FOLDER)/demo.uf2
+pico_UF2 := $(FIRMWARE_BUILT:%=$(call firmware_folder,pico)/%.uf2)
 $(pico_UF2): %.uf2: %.elf firmware/rp2/uf2.py
 	@python3 firmware/rp2/uf2.py e48bff56 10000000 $(<:.elf=.bin) $@
 firmware-pico: $(pico_UF2)
 
 .PHONY: flash-pico
-flash-pico: $(pico_FOLDER)/demo.uf2 ## puts the Pico's demo on a board: by its volume RPI-RP2 if that is mounted, else by openocd
+flash-pico: $(call firmware_folder,pico)/demo.uf2 ## puts the Pico's demo on a board: by its volume RPI-RP2 if that is mounted, else by openocd
 	@sh firmware/rp2/flash.sh RPI-RP2 rp2040 $(<:.uf2=.elf) $<

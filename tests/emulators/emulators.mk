@@ -55,8 +55,8 @@ test-firmware-lm3s6965evb: $(LM3S)/frames.elf $(LM3S_CORES:%=$(LM3S)-%/frames.el
 
 # OPTIONS='scene=spider method=zbuffer frames=32'
 OPTIONS := frames=4
-emulate-lm3s6965evb: $(LM3S)/frames.elf $(FIRMWARE)/libcount.so $(BUILD)/need/emulators ## runs it in QEMU: frames as PNG, instructions of each; OPTIONS='scene=spider frames=32'
-	@$(LM3S_RUN) show $< --out $(LM3S)/frames --plugin $(FIRMWARE)/libcount.so --options '$(OPTIONS)'
+emulate-lm3s6965evb: $(call firmware_folder,lm3s6965evb)/frames.elf $(FIRMWARE)/libcount.so $(BUILD)/need/emulators ## runs it in QEMU: frames as PNG, instructions of each; OPTIONS='scene=spider frames=32'
+	@$(LM3S_RUN) show $< --out $(<D)/frames --plugin $(FIRMWARE)/libcount.so --options '$(OPTIONS)'
 
 # ---- boards without a panel in their emulator: the SiFive E ------------------------------------------------------------
 # $(call WIRE_TEST,BOARD,IMAGE,FOLDER), $(call WIRE_SHOW,BOARD,IMAGE,FOLDER)
@@ -70,8 +70,8 @@ test-firmware-sifive_e: $(SIFIVE)/frames.elf $(OBJ)/wire_trace $(TUILE) firmware
 	@$(call WIRE_TEST,sifive_e,$(SIFIVE)/frames.elf,$(SIFIVE))
 	@$(call DEMO,sifive_e,$(SIFIVE)) --wire-trace $(OBJ)/wire_trace
 
-emulate-sifive_e: $(SIFIVE)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so $(BUILD)/need/emulators ## the same
-	@$(call WIRE_SHOW,sifive_e,$(SIFIVE)/frames.elf,$(SIFIVE))
+emulate-sifive_e: $(call firmware_folder,sifive_e)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so $(BUILD)/need/emulators ## the same
+	@$(call WIRE_SHOW,sifive_e,$<,$(<D))
 
 # ---- Black Pill and Pico 2: their objects on boards of QEMU with the same cores (firmware/mps2/), all but those that touch the chip --------
 MPS2 := $(FIRMWARE)/mps2
@@ -80,25 +80,25 @@ mps2_OWN_pico2 := firmware/pico2 firmware/rp2
 mps2_MAP_blackpill := -Wl,--defsym=FLASH_AT=0 -Wl,--defsym=RAM_AT=0x20000000 -Wl,--defsym=RAM_BYTES=128K
 mps2_MAP_pico2 := -Wl,--defsym=FLASH_AT=0x10000000 -Wl,--defsym=RAM_AT=0x80000000 -Wl,--defsym=RAM_BYTES=520K
 
-# $(call mps2_board,BOARD,OBJECTS): MPS2/BOARD/frames.elf. The block is as large as in the board's own program.
+# $(call mps2_board,BOARD,OBJECTS): MPS2/BOARD/frames.elf, with MODEL=FILE MPS2/BOARD-model/frames.elf. The block is as large as in the board's own program.
 define mps2_board
-$(MPS2)/$(1)/frames.elf: $(MPS2)/$(1)/board.o $(FIRMWARE)/$(1)/frames.elf firmware/mps2/link.ld
+$(MPS2)/$(1)$(FIRMWARE_OWN)/frames.elf: $(MPS2)/$(1)$(FIRMWARE_OWN)/board.o $(call firmware_folder,$(1))/frames.elf firmware/mps2/link.ld
 	@echo "  mps2 $$@"; $($(1)_TOOLS)gcc $($(1)_FLAGS) -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings $(mps2_MAP_$(1)) \
 	  -T firmware/mps2/link.ld $$< $(filter-out $(patsubst %,$(FIRMWARE)/$(1)/%/%,$(mps2_OWN_$(1))),$(2)) -lgcc -o $$@
-$(MPS2)/$(1)/board.o: firmware/mps2/board.c $(FIRMWARE)/$(1)/frames.elf
+$(MPS2)/$(1)$(FIRMWARE_OWN)/board.o: firmware/mps2/board.c $(call firmware_folder,$(1))/frames.elf
 	@mkdir -p $$(@D)
-	@size=$$$$($($(1)_TOOLS)nm -S $(FIRMWARE)/$(1)/frames.elf | awk '$$$$4 == "block" { print $$$$2 }'); \
+	@size=$$$$($($(1)_TOOLS)nm -S $(call firmware_folder,$(1))/frames.elf | awk '$$$$4 == "block" { print $$$$2 }'); \
 	$($(1)_TOOLS)gcc $($(1)_FLAGS) $(FIRMWARE_FLAGS) $(call scene_bits,$($(1)_SCENES)) -DBLOCK_BYTES=0x$$$$size -MMD -MP -c $$< -o $$@
 
-test-firmware-$(1): $(MPS2)/$(1)/frames.elf $(OBJ)/wire_trace $(TUILE) firmware-models $(BUILD)/need/emulators firmware-$(1) stack-$(1) size-firmware-$(1)
-	@$$(call WIRE_TEST,$(1),$(MPS2)/$(1)/frames.elf,$(FIRMWARE)/$(1))
+test-firmware-$(1): $(MPS2)/$(1)$(FIRMWARE_OWN)/frames.elf $(OBJ)/wire_trace $(TUILE) firmware-models $(BUILD)/need/emulators firmware-$(1) stack-$(1) size-firmware-$(1)
+	@$$(call WIRE_TEST,$(1),$(MPS2)/$(1)$(FIRMWARE_OWN)/frames.elf,$(FIRMWARE)/$(1))
 .PHONY: emulate-$(1)
-emulate-$(1): $(MPS2)/$(1)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so $(BUILD)/need/emulators
-	@$$(call WIRE_SHOW,$(1),$(MPS2)/$(1)/frames.elf,$(FIRMWARE)/$(1))
+emulate-$(1): $(MPS2)/$(1)$(FIRMWARE_OWN)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so $(BUILD)/need/emulators
+	@$$(call WIRE_SHOW,$(1),$$<,$(call firmware_folder,$(1)))
 endef
 emulate-blackpill: ## its objects on QEMU's Cortex-M4: frames as PNG, instructions of each; nothing of SPI, DMA and clocks
 emulate-pico2: ## likewise on QEMU's Cortex-M33
-mps2_objects = $(call firmware_objects,$(FIRMWARE)/$(1),$(1)) $(FIRMWARE_MAIN_frames:%.c=$(FIRMWARE)/$(1)/%.o)
+mps2_objects = $(call firmware_linked,$(1)) $(FIRMWARE_MAIN_frames:%.c=$(FIRMWARE)/$(1)/%.o)
 $(foreach board,blackpill pico2,$(eval $(call mps2_board,$(board),$(call mps2_objects,$(board)))))
 
 # ---- all ----------------------------------------------------------------------------------------------------------------

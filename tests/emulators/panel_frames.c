@@ -4,7 +4,8 @@
  *
  * TRACE is what an emulator wrote (trace.h) while the board ran firmware/frames.c. A chip of PANEL takes the bytes of the trace,
  * and at each line "frame SCENE METHOD NUMBER ..." it must have been reset, and its glass must be lit and equal that of the
- * simulator, which draws the same frame for the same panel in a block of its own size. MODELS is the folder of the compiled models.
+ * simulator, which draws the same frame for the same panel in a block of its own size. A line "demo SCENE METHOD PHASE RATE"
+ * (firmware/demo/demo.c) is held likewise, with its text over the frame. MODELS is the folder of the compiled models.
  * Just COUNT frames ("any": how ever many) must come, and no error. PICTURES, the beginning of names, receives the glass as
  * PICTURES-SCENE-METHOD-NUMBER.png.
  *
@@ -13,11 +14,14 @@
 #include "trace.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../firmware/caption.h"
 #include "../../firmware/player.h"
 #include "../../sim/bus.h"
+#include "../../sim/font.h"
 #include "../../sim/options.h"
 #include "../../sim/panels.h"
 
@@ -29,6 +33,8 @@ typedef struct drawn {
     sim_bus_t bus;
     tuile_display_t display;
     player_t player;
+    caption_t caption; /* shows nothing over frames of frames.c */
+    uint8_t *font;
     const scene_script_t *script; /* NULL: nothing yet */
     uint8_t method;
     uint8_t *model;
@@ -66,7 +72,14 @@ static int read_model(drawn_t *drawn, const char *folder, sim_error_t *error) {
 }
 
 static int choose(drawn_t *drawn, const char *folder, const scene_script_t *script, uint8_t method, sim_error_t *error) {
-    player_config_t config = {.display = &drawn->display, .block = drawn->block, .block_bytes = BLOCK_BYTES, .method = method};
+    player_config_t config = {
+        .display = &drawn->display,
+        .block = drawn->block,
+        .block_bytes = BLOCK_BYTES,
+        .method = method,
+        .overlay = caption_draw,
+        .overlay_context = &drawn->caption,
+    };
     int result;
 
     if (drawn->script == script && drawn->method == method) { return 0; }
@@ -80,11 +93,14 @@ static int choose(drawn_t *drawn, const char *folder, const scene_script_t *scri
 }
 
 static int open_drawn(drawn_t *drawn, const sim_panel_t *panel, sim_error_t *error) {
+    size_t font_bytes;
     int result;
 
     drawn->block = malloc(BLOCK_BYTES);
     drawn->chip = panel->create(error);
     if (!drawn->block || !drawn->chip) { return sim_fail(error, "out of memory"); }
+    if (font_load(NULL, &drawn->font, &font_bytes, error)) { return -1; }
+    if (tuile_font_open(&drawn->caption.font, drawn->font, font_bytes)) { return sim_fail(error, "the font is damaged"); }
     sim_bus_open(&drawn->bus, NULL, drawn->chip);
     result = tuile_display_init(&drawn->display, &(tuile_display_config_t){.bus = &drawn->bus.bus, .panel = panel->panel});
     return result ? sim_fail(error, "simulator: %s", tuile_stream_error_text(result)) : 0;
@@ -122,14 +138,24 @@ static int write_picture(const frames_t *frames, const sim_picture_t *picture, c
     return sim_picture_write(picture, path, error);
 }
 
+/* Sets the simulator to the moment that a line tells. */
+static int set_moment(drawn_t *drawn, bool demo, unsigned number, double rate) {
+    drawn->caption.show_rate = drawn->caption.show_method = demo;
+    drawn->caption.rate = (uint16_t)lround(10 * rate);
+    drawn->caption.method = drawn->method;
+    return demo ? scene_phase(&drawn->player.stage, (bam16_t)number) : scene_frame(&drawn->player.stage, number);
+}
+
 static int compare(frames_t *frames, const char *line, sim_error_t *error) {
+    const bool demo = line[0] == 'd';
     char scene[32], method_name[32];
     unsigned number;
+    double rate = 0;
     sim_picture_t board = {0}, simulator = {0};
     const scene_script_t *script;
     int method, result;
 
-    if (sscanf(line, "frame %31s %31s %u", scene, method_name, &number) != 3) {
+    if (sscanf(line, "%*s %31s %31s %u %lf", scene, method_name, &number, &rate) < 3 + demo) {
         return sim_fail(error, "what frame is \"%s\"?", line);
     }
     script = scene_find(scene);
@@ -138,7 +164,7 @@ static int compare(frames_t *frames, const char *line, sim_error_t *error) {
     if (!frames->reset) { return sim_fail(error, "%s: the panel's reset line was never low", line); }
     if (frames->light == 0) { return sim_fail(error, "%s: the panel is dark", line); }
     if (choose(&frames->drawn, frames->models, script, (uint8_t)method, error)) { return -1; }
-    if ((result = player_frame(&frames->drawn.player, number))) {
+    if ((result = set_moment(&frames->drawn, demo, number, rate)) || (result = player_show(&frames->drawn.player))) {
         return sim_fail(error, "%s: simulator: %s", line, tuile_stream_error_text(result));
     }
     result = frames->chip->glass(frames->chip, &board, error);
@@ -152,7 +178,7 @@ static int compare(frames_t *frames, const char *line, sim_error_t *error) {
 }
 
 static int text(frames_t *frames, const char *line, sim_error_t *error) {
-    const bool frame = strncmp(line, "frame ", 6) == 0;
+    const bool frame = strncmp(line, "frame ", 6) == 0 || strncmp(line, "demo ", 5) == 0;
 
     if (strncmp(line, "error ", 6) == 0) { return sim_fail(error, "the board says: %s", line); }
     (void)(frame ? printf("%s wire %" PRIu64 "\n", line, frames->wire_bytes) : printf("%s\n", line));
@@ -183,6 +209,7 @@ static void close_all(frames_t *frames) {
     if (frames->chip) { frames->chip->destroy(frames->chip); }
     if (frames->drawn.chip) { frames->drawn.chip->destroy(frames->drawn.chip); }
     free(frames->drawn.model);
+    free(frames->drawn.font);
     free(frames->drawn.block);
 }
 

@@ -28,9 +28,9 @@ test-firmware-pico: firmware-pico $(pico_MORE)/overlap.elf $(pico_MUTANTS) firmw
 	  sh tests/emulators/pico_update.sh $(BUILD) $(PANEL_FRAMES)
 
 PANEL ?= st7789-240x240
-emulate-pico: $(pico_FOLDER)/frames.elf firmware-models $(PANEL_FRAMES) $(RP2040JS) ## runs it on an emulated RP2040: frames as PNG, times of each; PANEL=ili9341 OPTIONS='scene=bunny frames=32'
-	@mkdir -p $(pico_FOLDER)/frames
-	@$(EMULATE_RP2040) --program $< --trace $(pico_FOLDER)/frames/wire --options 'panel=$(PANEL) $(OPTIONS)'
-	@$(PANEL_FRAMES) $(pico_FOLDER)/frames/wire $(PANEL) $(FIRMWARE)/models any $(pico_FOLDER)/frames/$(PANEL)
-	@rm $(pico_FOLDER)/frames/wire
-	@echo "Pictures: $(pico_FOLDER)/frames/$(PANEL)-*.png"
+emulate-pico: $(call firmware_folder,pico)/frames.elf $(if $(FIRMWARE_OWN),,firmware-models) $(PANEL_FRAMES) $(RP2040JS) ## runs it on an emulated RP2040: frames as PNG, times of each; PANEL=ili9341 OPTIONS='scene=bunny frames=32'
+	@mkdir -p $(<D)/frames
+	@$(EMULATE_RP2040) --program $< --trace $(<D)/frames/wire --options 'panel=$(PANEL) $(OPTIONS)'
+	@$(PANEL_FRAMES) $(<D)/frames/wire $(PANEL) $(FIRMWARE)/model$(if $(FIRMWARE_OWN),,s) any $(<D)/frames/$(PANEL)
+	@rm $(<D)/frames/wire
+	@echo "Pictures: $(<D)/frames/$(PANEL)-*.png"

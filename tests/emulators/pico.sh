@@ -56,6 +56,36 @@ frames st7789-240x320 8 "frames=8 scene=bunny method=zbuffer"
 frames ili9341 8 "frames=8 scene=room method=tree" --flash "$programs/frames.uf2"
 frames ili9341 16 "frames=4 scene=spider"
 
+# The demo: what goes by time, then by its button: a short press, and a long one. Its text is in the frames that are compared, and the
+# rates in it are those of the emulator's clock: of the frames over which each was taken, to 1 %.
+demo() {
+    emulate "$programs/demo" --trace "$out/demo.trace" --options "panel=$panel tell=1 $1" ${2:-} >"$out/demo.txt" || fail "demo $1: $(tail -3 "$out/demo.txt")"
+    "$panel_frames" "$out/demo.trace" "$panel" "$build/firmware/models" any >"$out/demo.frames" || fail "demo $1: the trace is $out/demo.trace"
+    echo "demo $(tail -1 "$out/demo.frames")"
+    rm "$out/demo.trace"
+}
+panel=st7789-240x240
+demo "every=1 frames=19"
+awk '$1 == "demo" { print $2, $3 }' "$out/demo.txt" >"$out/demo.order"
+awk '!/^#/ { for (i = 2; i <= NF; i++) { print $1, $i } } END { print "cube zbuffer" }' "$here/../../firmware/pico/frames" | cmp - "$out/demo.order" ||
+    fail "the demo does not go through all scenes and methods: $out/demo.order"
+demo "frames=110" "--press 600:120,1000:800"
+awk '$1 == "demo" { pair = $2 " " $3
+         if (pair != shown) { order = order pair ";"; moved[pair] = $NF }
+         if (pair != shown || $5 != rate) {
+             if ($5 > 0) {
+                 true_rate = 1000 * (NR - since) / (before - start); rates++
+                 if ($5 > 1.01 * true_rate || $5 < 0.99 * true_rate) { print "rate " $5 ", but " true_rate " by the clock"; wrong = 1 }
+             }
+             since = NR; start = before; rate = $5; shown = pair
+         }
+         before = $NF
+     }
+     END { in_time = moved["cube scanline"] > 720 && moved["cube scanline"] < 800 && moved["room zbuffer"] > 1600 && moved["room zbuffer"] < 1700
+           printf "demo: by its button %s %d rates to 1 %%\n", order, rates
+           exit !(order == "cube zbuffer;cube scanline;room zbuffer;" && in_time && rates >= 2 && !wrong) }' "$out/demo.txt" ||
+    fail "the demo does not do what its button says, or shows a wrong rate: $out/demo.txt"
+
 emulate "$more/overlap" >"$out/overlap.txt" || fail "$(cat "$out/overlap.txt")"
 awk '$1 == "render" { render = $5 } $1 == "wire" { wire = $5 }
      $1 == "both" {

@@ -1,9 +1,10 @@
 // Runs a program on an emulated RP2040 and writes down what its panel's wires did.
 //
-// node rp2040.mjs --modules FOLDER --program FILE.elf [--flash FILE.uf2] [--trace FILE] [--options TEXT] [--seconds N] [--quiet]
+// node rp2040.mjs --modules FOLDER --program FILE.elf [--flash FILE.uf2] [--trace FILE] [--options TEXT] [--press AT:MS,...] [--seconds N] [--quiet]
 //
-// FOLDER: where npm has put rp2040js. FILE.uf2: what goes into flash, in the place of the program's segments. --seconds: of this machine's processor, 300 by default. The program's lines are printed, and
-// for each frame its time, the part of it that the core slept, and that of its bits on the wire. Exit code 0 when the program
+// FOLDER: where npm has put rp2040js. FILE.uf2: what goes into flash, in the place of the program's segments. --seconds: of this machine's processor, 300 by default. --press: at AT ms of the
+// board's time the button is held for MS, and its contact bounces. The program's lines are printed with their times, and
+// for each frame how long it took, the part of it that the core slept, and that of its bits on the wire. Exit code 0 when the program
 // parked with 0; else 1 and one line on stderr that begins with the reason.
 import { createRequire } from 'node:module';
 import { readFileSync } from 'node:fs';
@@ -13,7 +14,7 @@ import { loadElf, loadUf2, findSymbol } from './elf.mjs';
 import { Trace } from './trace.mjs';
 import { Violation, beStrict, checkFrame, refuse } from './rp2040_strict.mjs';
 
-const PINS = { dc: 16, select: 17, clock: 18, data: 19, light: 20, reset: 21 }; // firmware/rp2/port.h
+const PINS = { dc: 16, select: 17, clock: 18, data: 19, light: 20, reset: 21, button: 15 }; // firmware/rp2/port.h, board.c
 const HIGH = 1;
 const LOW = 0;
 const FLASH = 0x10000000;
@@ -25,7 +26,7 @@ const FUNCTION_PWM = 4;
 
 const { values: args } = parseArgs({
   options: {
-    modules: { type: 'string' }, program: { type: 'string' }, flash: { type: 'string' }, trace: { type: 'string' }, options: { type: 'string' },
+    modules: { type: 'string' }, program: { type: 'string' }, flash: { type: 'string' }, trace: { type: 'string' }, options: { type: 'string' }, press: { type: 'string', default: '' },
     seconds: { type: 'string', default: '300' }, quiet: { type: 'boolean', default: false },
   },
 });
@@ -92,6 +93,16 @@ slice.writeRegister = (offset, value) => {
   if (now !== shining) { trace.light(shining = now, clock.nanos); }
 };
 
+// The button, between its pin and ground: open, the level is that of a pull-up, if there is one.
+let closed = false;
+Object.defineProperty(rp.gpio[PINS.button], 'rawInputValue', { get: () => !closed && rp.gpio[PINS.button].pullupEnabled, set: () => {} });
+const BOUNCES_MS = [0, 0.3, 0.5, 1.9, 2.0, 5, 5.1]; // each turns the contact over, the last one for good
+for (const [at, length] of args.press.split(',').filter(Boolean).map((text) => text.split(':').map(Number))) {
+  for (const [start, last] of [[at, true], [at + length, false]]) {
+    BOUNCES_MS.forEach((offset, i) => clock.createAlarm(() => { closed = i % 2 ? !last : last; }).schedule((start + offset) * 1e6));
+  }
+}
+
 // ---- what the program tells ----
 let told = '';
 rp.uart[0].onByte = (byte) => {
@@ -101,7 +112,7 @@ rp.uart[0].onByte = (byte) => {
   }
   lines.push(told);
   trace.text(told, clock.nanos);
-  if (!args.quiet) { console.log(told + shownTimes()); }
+  if (!args.quiet) { console.log(`${told}${shownTimes()} at ${(clock.nanos / 1e6).toFixed(3)}`); }
   told = '';
 };
 
