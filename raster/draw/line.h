@@ -15,7 +15,7 @@
 #include "../fill/span.h"
 
 /* |coordinate| at most, for lines and for triangles by edge tables: differences fit in 2^30, and an error term in 31 bits. */
-#define LINE_RANGE (1 << 29)
+#define LINE_RANGE ((int32_t)1 << 29)
 
 typedef struct line {
     int32_t x, y;  /* the next pixel */

@@ -13,7 +13,8 @@ int tuile_camera_look_at(tuile_camera_t *camera, const q16_16_t eye[3], const q1
     if (!vector_normalise(forward, towards) || !vector_normalise(up_unit, upward)) { return TUILE_ERROR_CAMERA; }
     vector_cross(cross, forward, up_unit);
     for (int i = 0; i < 3; i++) {
-        if (cross[i] > (1 << 20) || cross[i] < -(1 << 20)) { break; } /* 2^-40: not parallel within the precision of the input */
+        /* 2^-40: not parallel within the precision of the input */
+        if (cross[i] > (INT32_C(1) << 20) || cross[i] < -(INT32_C(1) << 20)) { break; }
         if (i == 2) { return TUILE_ERROR_CAMERA; }
     }
     (void)vector_normalise(right, cross);

@@ -193,8 +193,8 @@ static void corner_values(const clip_face_t *face, unsigned i, clip_point_t *p) 
         p->value[1] = (int16_t)(at[2] | at[3] << 8) * 256;
     }
     for (unsigned k = 0; k < 4; k++) {
-        p->value[2 + k] = face->lights ? face->lights[4 * corner + k] << 16 : 0;
-        p->value[6 + k] = (face->colours ? face->colours[4 * corner + k] : 255) << 16;
+        p->value[2 + k] = face->lights ? (int32_t)face->lights[4 * corner + k] << 16 : 0;
+        p->value[6 + k] = (int32_t)(face->colours ? face->colours[4 * corner + k] : 255) << 16;
     }
 }
 

@@ -14,7 +14,7 @@ uint32_t lamp_inverse_root(uint64_t x, unsigned *half) {
     for (unsigned i = 0; i < 3; i++) {
         const uint32_t square = (uint32_t)((uint64_t)y * y >> 32);       /* Q.30 */
         const uint32_t product = (uint32_t)((uint64_t)m * square >> 30); /* Q.30, near 1 */
-        y = (uint32_t)((uint64_t)y * (3u * (1u << 30) - product) >> 31);
+        y = (uint32_t)((uint64_t)y * (3u * (UINT32_C(1) << 30) - product) >> 31);
     }
     *half = n / 2;
     return y;
@@ -173,14 +173,14 @@ static uint32_t shine_power(const lamp_shine_t *shine, const int8_t normal[3], i
     const uint32_t root = lamp_inverse_root(square, &half);
     const uint64_t across = (uint64_t)dot * root >> (40 - half); /* |N| (N . H), Q.22: below 2^30 */
     uint64_t c = across * shine->root >> (54 - shine->half);
-    if (c > 1u << 30) { c = 1u << 30; }
+    if (c > UINT32_C(1) << 30) { c = UINT32_C(1) << 30; }
     for (int i = 0; i < shine->shininess; i++) {
-        c = (c * c + (1u << 29)) >> 30;
+        c = (c * c + (UINT32_C(1) << 29)) >> 30;
     }
     return (uint32_t)c;
 }
 
-#define LIGHT_ENOUGH (256u << 16)
+#define LIGHT_ENOUGH (UINT32_C(256) << 16)
 
 static void sum_up(uint32_t *sum, uint32_t part) {
     *sum += part;

@@ -95,7 +95,7 @@ static void plane_store(transform_plane_t *plane, const wide_row_t *row) {
     /* The roundings above are off by at most 3 * 2^15 * 1/2 for any int16 position, and a vertex between two key frames lies up to
      * 1/256 step along each axis from its place, 3 * 2^24 / 256: the plane moves out by more than both. */
     plane->d = wide_to_integer(row->t, 24 - bits);
-    if (plane->d < ((int64_t)1 << 61)) { plane->d += 1 << 18; }
+    if (plane->d < ((int64_t)1 << 61)) { plane->d += INT32_C(1) << 18; }
     plane->length = fixed_sqrt64(squares) + 1;
 }
 
@@ -110,7 +110,7 @@ static void light_vectors(transform_t *transform, const tuile_scene_t *scene, co
                 sum -= (int64_t)instance->pose.rotation[k][j] * scene->lights[l].direction[k];
             }
             /* normal (127 = 1) . light >> 13 = intensity at full incidence: light = intensity * 2^13 / 127 */
-            const int64_t value = ((sum >> 14) * scene->lights[l].intensity * 8192 / 127 + (1 << 29)) >> 30;
+            const int64_t value = ((sum >> 14) * scene->lights[l].intensity * 8192 / 127 + (INT32_C(1) << 29)) >> 30;
             transform->lights[l][j] = (int16_t)(value > 16512 ? 16512 : value < -16512 ? -16512 : value);
         }
     }

@@ -7,7 +7,7 @@
  */
 #include "tree.h"
 
-#define N_LIMIT (1 << 30)
+#define N_LIMIT (INT32_C(1) << 30)
 #define D_LIMIT ((int64_t)1 << 48)
 #define RESERVED 0xe0u
 
@@ -43,7 +43,7 @@ bool tree_check(const tuile_model_t *model) {
     uint32_t at = 0, faces = 0, cluster = 0, links = 0, seconds = 0;
     bool second = false;
 
-    if (words >= 1u << 28 || model->tree_depth == 0) { return false; }
+    if (words >= UINT32_C(1) << 28 || model->tree_depth == 0) { return false; }
     while (at < words) {
         uint32_t parent = 0;
         if (second) {

@@ -127,7 +127,7 @@ static unsigned code_of(const tuile_camera_t *camera, const layer_view_t *at) {
     if (at->w < camera->near) { return 1; }
     if (at->w > camera->far) { return 2; }
     if (layer_inside(camera, at)) { return 0; }
-    const int64_t w = camera->projection == TUILE_PERSPECTIVE ? at->w : 1 << 16, edge = (int64_t)LAYER_GUARD * 256 * w;
+    const int64_t w = camera->projection == TUILE_PERSPECTIVE ? at->w : INT32_C(1) << 16, edge = (int64_t)LAYER_GUARD * 256 * w;
     const int64_t x = (int64_t)(camera->focal_x >> 8) * at->x, y = (int64_t)(camera->focal_y >> 8) * at->y;
     return (x > edge ? 4u : x < -edge ? 8u : 0u) | (y > edge ? 16u : y < -edge ? 32u : 0u);
 }

@@ -8,7 +8,7 @@ layer_view_t layer_to_view(const tuile_camera_t *camera, const q16_16_t at[3]) {
         for (unsigned k = 0; k < 3; k++) {
             sum += (int64_t)(camera->rotation[i][k] >> 2) * ((int64_t)at[k] - camera->eye[k]);
         }
-        v[i] = (sum + (1 << 27)) >> 28;
+        v[i] = (sum + (INT32_C(1) << 27)) >> 28;
     }
     return (layer_view_t){v[0], v[1], -v[2]};
 }
@@ -21,12 +21,12 @@ static bool within(q16_16_t focal, int64_t across, int64_t w) {
 
 bool layer_inside(const tuile_camera_t *camera, const layer_view_t *at) {
     if (at->w < camera->near || at->w > camera->far) { return false; }
-    const int64_t w = camera->projection == TUILE_PERSPECTIVE ? at->w : 1 << 16;
+    const int64_t w = camera->projection == TUILE_PERSPECTIVE ? at->w : INT32_C(1) << 16;
     return within(camera->focal_x, at->x, w) && within(camera->focal_y, at->y, w);
 }
 
 int64_t layer_project_length(const tuile_camera_t *camera, q16_16_t focal, int64_t length, int64_t w) {
-    if (camera->projection == TUILE_ORTHOGRAPHIC) { w = 1 << 16; }
+    if (camera->projection == TUILE_ORTHOGRAPHIC) { w = INT32_C(1) << 16; }
     while (length >= INT32_MAX || length <= INT32_MIN || w >= INT32_MAX) { /* 32768 units off, 2^-16 of them do not count */
         length >>= 1;
         w >>= 1;

@@ -25,11 +25,11 @@ static uint32_t multiply(uint32_t a, uint32_t b) {
 static bool in_ellipse(const sprite_t *sprite, int32_t x, int32_t y) {
     int64_t dx = 2 * (16 * (int64_t)x + 8 - sprite->left) - sprite->width, a = sprite->width;
     int64_t dy = 2 * (16 * (int64_t)y + 8 - sprite->top) - sprite->height, b = sprite->height;
-    while (a >= 1 << 15) { /* |dx| <= a, |dy| <= b: products of four stay below 2^60 */
+    while (a >= INT32_C(1) << 15) { /* |dx| <= a, |dy| <= b: products of four stay below 2^60 */
         dx /= 2;
         a /= 2;
     }
-    while (b >= 1 << 15) {
+    while (b >= INT32_C(1) << 15) {
         dy /= 2;
         b /= 2;
     }

@@ -2,7 +2,7 @@
 #include "../fill/polygon.h"
 #include "canvas.h"
 
-#define POLYGON_RANGE (32767 * 16) /* of polygon_ring_t */
+#define POLYGON_RANGE (INT32_C(32767) * 16) /* of polygon_ring_t */
 
 typedef struct polygon_target {
     const tuile_canvas_t *canvas;
@@ -37,4 +37,4 @@ int tuile_draw_polygon(tuile_canvas_t *canvas, const q28_4_t (*points)[2], unsig
                      put_span, &target);
     return TUILE_OK;
 }
-_Static_assert((TUILE_WINDOW_MAX_PX * 2 + 1023) * 4 * 16 <= POLYGON_RANGE, "held points are in range in samples");
+_Static_assert((INT32_C(2) * TUILE_WINDOW_MAX_PX + 1023) * 4 * 16 <= POLYGON_RANGE, "held points are in range in samples");

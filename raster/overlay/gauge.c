@@ -9,8 +9,8 @@ static bool is_seen(uint32_t colour) { return colour >> 24 != 0; }
 
 /* A point of the dial, radius in 1/16 pixel, rounded to nearest: |radius| < 2^15. */
 static void polar(const tuile_gauge_t *gauge, bam16_t angle, int32_t radius, q28_4_t at[2]) {
-    at[0] = TUILE_PX(gauge->x) + 8 + (int32_t)(((int64_t)tuile_cos(angle) * radius + (1 << 29)) >> 30);
-    at[1] = TUILE_PX(gauge->y) + 8 + (int32_t)(((int64_t)tuile_sin(angle) * radius + (1 << 29)) >> 30);
+    at[0] = TUILE_PX(gauge->x) + 8 + (int32_t)(((int64_t)tuile_cos(angle) * radius + (INT32_C(1) << 29)) >> 30);
+    at[1] = TUILE_PX(gauge->y) + 8 + (int32_t)(((int64_t)tuile_sin(angle) * radius + (INT32_C(1) << 29)) >> 30);
 }
 
 static void draw_needle(tuile_canvas_t *canvas, const tuile_gauge_t *gauge, bam16_t angle) {

@@ -23,7 +23,7 @@
 #define TUILE_COLOUR(red, green, blue) TUILE_ARGB(255, red, green, blue)
 #define TUILE_PX(x) ((q28_4_t)((x)*16)) /* whole pixels in 1/16; the centre of pixel i is TUILE_PX(i) + 8 */
 
-#define TUILE_OVERLAY_RANGE (1 << 22) /* 1/16 pixels */
+#define TUILE_OVERLAY_RANGE ((int32_t)1 << 22) /* 1/16 pixels */
 
 /* Pixels left ... right - 1, top ... bottom - 1; none where right <= left or bottom <= top. */
 typedef struct tuile_box {

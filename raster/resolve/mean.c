@@ -101,7 +101,7 @@ TUILE_INLINE uint32_t means(const resolve_run_t *run, uint32_t i, uint32_t ones)
 }
 
 TUILE_INLINE uint32_t own_565(const resolve_run_t *run, uint32_t i) {
-    const uint32_t x = means(run, i, 1u << 21 | 1u << 11 | 1u);
+    const uint32_t x = means(run, i, UINT32_C(1) << 21 | 1u << 11 | 1u);
     return (x & 0xf81fu) | (x >> 16 & 0x7e0u);
 }
 

@@ -5,7 +5,7 @@
 /* at = from + distance * direction, rounded; direction: Q2.30, a unit vector. */
 static bool move(q16_16_t at[3], const q16_16_t from[3], q16_16_t distance, const q2_30_t direction[3]) {
     for (int i = 0; i < 3; i++) {
-        const int64_t moved = from[i] + (((int64_t)distance * direction[i] + (1 << 29)) >> 30);
+        const int64_t moved = from[i] + (((int64_t)distance * direction[i] + (INT32_C(1) << 29)) >> 30);
         if (moved > INT32_MAX || moved < INT32_MIN) { return false; }
         at[i] = (q16_16_t)moved;
     }

@@ -5,7 +5,7 @@
 #include "../tuile.h"
 
 /* Entries may leave -1 ... 1 by so much: nine bits less than would let three products overflow 64 bits. */
-#define ROTATION_ENTRY_MAX (TUILE_ONE_Q30 + (1 << 20))
+#define ROTATION_ENTRY_MAX (TUILE_ONE_Q30 + (INT32_C(1) << 20))
 
 /* Rows of unit length, to 2^-15: matrices that were never filled in, or have a scale, do not pass. */
 bool rotation_is_unit(const q2_30_t rotation[3][3]);

@@ -33,7 +33,8 @@ int fog_make(fog_t *fog, const tuile_fog_t *from, const tuile_camera_t *camera) 
     }
     const wide_t range = q16((int64_t)camera->far - camera->near);
     const wide_t per_depth = wide_multiply(range, wide_reciprocal(wide_make((int64_t)65520 << 16, 0)));
-    const wide_t from_zero = wide_add(q16((int64_t)camera->far - from->near), wide_multiply(wide_make(8 << 16, 0), per_depth));
+    const wide_t from_zero =
+        wide_add(q16((int64_t)camera->far - from->near), wide_multiply(wide_make(INT32_C(8) << 16, 0), per_depth));
     store_a(fog, wide_multiply(per_depth, per_unit));
     fog->b = wide_to_integer(wide_multiply(from_zero, per_unit), 0);
     return TUILE_OK;
@@ -64,7 +65,7 @@ uint32_t fog_share(const fog_t *fog, uint32_t depth) {
     }
     if (x <= 0) { return 0; }
     if (fog->kind == TUILE_FOG_LINEAR) { return x < (int64_t)FOG_ONE ? (uint32_t)x : FOG_ONE; }
-    if (x >= 17 << 16) { return FOG_ONE; }
+    if (x >= INT32_C(17) << 16) { return FOG_ONE; }
     const uint32_t whole = (uint32_t)x >> 16, at = (uint32_t)x >> 10 & 63u, rest = (uint32_t)x & 1023u;
     const uint32_t left = (halves[at] << 10) - (halves[at] - halves[at + 1]) * rest; /* 1/2^26 */
     return FOG_ONE - (left >> (10 + whole));

@@ -64,7 +64,7 @@ static light_plane_t plane_on(const light_ground_t *f, const uint8_t value[3]) {
     const int32_t c1 = value[f->second] - value[0], c2 = value[f->third] - value[0];
     const gradient_t g = f->reciprocal ? gradient_small(c1, c2, f->x1, f->y1, f->x2, f->y2, f->reciprocal, 27)
                                        : gradient_exact(c1, c2, f->x1, f->y1, f->x2, f->y2, f->area, 27);
-    const uint32_t at_corner = ((uint32_t)value[0] + 64u) << 23 | 1u << 22, dx = (uint32_t)g.dx, dy = (uint32_t)g.dy;
+    const uint32_t at_corner = ((uint32_t)value[0] + 64u) << 23 | UINT32_C(1) << 22, dx = (uint32_t)g.dx, dy = (uint32_t)g.dy;
     return (light_plane_t){at_corner + (uint32_t)gradient_part(g, f->to_x & 15, f->to_y & 15) + dx * (uint32_t)(f->to_x >> 4) +
                                dy * (uint32_t)(f->to_y >> 4),
                            dx, dy};

@@ -184,7 +184,7 @@ void surface_make(surface_t *surface, const surface_face_t *face, pixel_kind_t k
         uint8_t factor[3];
         varies = light_make(surface, face, factor);
         for (unsigned c = 0; c < 3; c++) {
-            colour[c] = (uint8_t)pixel_div255(colour[c] * factor[c] + 127u);
+            colour[c] = (uint8_t)pixel_div255((unsigned)colour[c] * factor[c] + 127u);
         }
     }
     if (!textured && alike >= 0 && varies == 0 && !fogged) {

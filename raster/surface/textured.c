@@ -11,7 +11,7 @@ static void level_set(textured_material_t *m, unsigned number) {
     level->number = (uint8_t)number;
     level->upper = number + 1u < m->levels ? (uint8_t)(2 * number + 2) : 31;
     level->lower = (uint8_t)(2 * number);
-    level->always = number > 0 ? 0 : 1u << 31;
+    level->always = number > 0 ? 0 : UINT32_C(1) << 31;
     level->fit = number < m->log2_width && number < m->log2_height && width + height <= 16;
     if (!level->fit) { return; }
     level->width = (uint8_t)width;

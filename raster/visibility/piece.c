@@ -239,7 +239,7 @@ int piece_cut_at(tuile_t *t, uint32_t number, uint32_t added, const face_bounds_
     source_open(&source, t, record, bounds, own_number);
     const bool planar =
         face_plane(t, &source.face, &source.plane) >= 0 && absolute(source.plane.dx) <= STEEP && absolute(source.plane.dy) <= STEEP;
-    const int64_t one = (int64_t)1 << 20, line = -(int64_t)at * (1 << 20);
+    const int64_t one = (int64_t)1 << 20, line = -(int64_t)at * (INT32_C(1) << 20);
     const side_t high = {line, axis ? 0 : one, axis ? one : 0, !planar}, low = {-line, axis ? 0 : -one, axis ? -one : 0, !planar};
     const face_bounds_t whole = *bounds;
     *(axis ? &source.bounds.bottom : &source.bounds.right) = (int16_t)at;
