@@ -20,6 +20,10 @@ static int misuse(sim_bus_t *bus, const char *what) {
     return TUILE_HAL_STATE;
 }
 
+static void catch_up(sim_bus_t *bus) {
+    if (bus->listener) { sim_bus_work(bus, bus->listener(bus->listener_context)); }
+}
+
 /* Counts a transfer and tells what becomes of it; *parts of 2 reach the chip. */
 static int fate(sim_bus_t *bus, uint8_t *parts) {
     int code = bus->config.fail_code ? bus->config.fail_code : TUILE_HAL_IO;
@@ -55,11 +59,13 @@ static int bus_clocks(void *context, uint32_t command_clock_hz, uint32_t pixel_c
 
 static int bus_command(void *context, const uint8_t *bytes, size_t low_count, size_t size_bytes) {
     sim_bus_t *bus = context;
-    uint64_t start_ns = bus->now_ns + bus->config.command_gap_ns, wire_ns = wire_time(size_bytes, command_clock(bus));
+    uint64_t start_ns, wire_ns = wire_time(size_bytes, command_clock(bus));
     uint8_t parts;
     size_t arrive, low;
     int result, refused;
 
+    catch_up(bus);
+    start_ns = bus->now_ns + bus->config.command_gap_ns;
     if (bus->flying) { return misuse(bus, "a command while data are in flight"); }
     if (low_count == 0 || low_count > size_bytes || size_bytes > 64) {
         return misuse(bus, "a command without a command byte, or of more than 64 bytes");
@@ -95,6 +101,7 @@ static int bus_data(void *context, const uint8_t *bytes, size_t size_bytes) {
     sim_bus_t *bus = context;
     uint64_t wire_ns = wire_time(size_bytes, pixel_clock(bus));
 
+    catch_up(bus);
     if (bus->flying) { return misuse(bus, "data while data are in flight"); }
     if (!bytes || size_bytes == 0) { return misuse(bus, "data of no bytes"); }
     if (bus->config.max_chunk_bytes && size_bytes > bus->config.max_chunk_bytes) {
@@ -112,7 +119,10 @@ static int bus_data(void *context, const uint8_t *bytes, size_t size_bytes) {
     return bus->config.blocking ? land(bus) : TUILE_HAL_OK;
 }
 
-static int bus_wait(void *context) { return land(context); }
+static int bus_wait(void *context) {
+    catch_up(context);
+    return land(context);
+}
 
 static int bus_read(void *context, uint8_t command, uint8_t *bytes, size_t size_bytes) {
     sim_bus_t *bus = context;
@@ -120,6 +130,7 @@ static int bus_read(void *context, uint8_t command, uint8_t *bytes, size_t size_
     uint8_t parts;
     int result;
 
+    catch_up(bus);
     if (bus->flying) { return misuse(bus, "a read while data are in flight"); }
     result = fate(bus, &parts);
     bus->counts.commands++;
@@ -138,6 +149,7 @@ static int bus_read(void *context, uint8_t command, uint8_t *bytes, size_t size_
 static int bus_delay_ms(void *context, uint32_t delay_ms) {
     sim_bus_t *bus = context;
 
+    catch_up(bus);
     bus->now_ns += delay_ms * UINT64_C(1000000);
     bus->counts.delay_ns += delay_ms * UINT64_C(1000000);
     return TUILE_HAL_OK;
@@ -157,8 +169,10 @@ static int bus_pin(void *context, tuile_pin_t pin, uint8_t level) {
 
 static int bus_tearing(void *context, uint32_t timeout_ms) {
     sim_bus_t *bus = context;
-    uint64_t period_ns = UINT64_C(1000000000) / bus->config.refresh_hz, blank_ns = (bus->now_ns / period_ns + 1) * period_ns;
+    uint64_t period_ns = UINT64_C(1000000000) / bus->config.refresh_hz, blank_ns;
 
+    catch_up(bus);
+    blank_ns = (bus->now_ns / period_ns + 1) * period_ns;
     if (!bus->chip->tearing || blank_ns - bus->now_ns > timeout_ms * UINT64_C(1000000)) { return TUILE_HAL_TIMEOUT; }
     bus->counts.idle_ns += blank_ns - bus->now_ns;
     bus->now_ns = blank_ns;
@@ -188,6 +202,11 @@ void sim_bus_open(sim_bus_t *bus, const sim_bus_config_t *config, sim_chip_t *ch
 void sim_bus_work(sim_bus_t *bus, uint64_t work_ns) {
     bus->now_ns += work_ns;
     bus->counts.work_ns += work_ns;
+}
+
+void sim_bus_listen(sim_bus_t *bus, sim_bus_work_fn work, void *context) {
+    bus->listener = work;
+    bus->listener_context = context;
 }
 
 int sim_bus_picture(const sim_bus_t *bus, unsigned rotation, sim_picture_t *out, sim_error_t *error) {

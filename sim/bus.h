@@ -1,8 +1,8 @@
 /* The simulator as a board: a tuile_bus_t with a model of a panel chip at its other end, and a clock.
  *
  * The clock counts the wire (bits / clock + gaps), the pauses that the driver asks for, and the work that the caller reports with
- * sim_bus_work. Data may be on the wire while the caller works, as with DMA: a buffer in flight is not read before the next wait,
- * so whoever overwrites it too early sees the damage on the glass. */
+ * sim_bus_work, or that a listener of sim_bus_listen knows of. Data may be on the wire while the caller works, as with DMA: a
+ * buffer in flight is not read before the next wait, so whoever overwrites it too early sees the damage on the glass. */
 #ifndef SIM_BUS_H
 #define SIM_BUS_H
 
@@ -38,9 +38,12 @@ typedef struct sim_bus_counts {
     uint64_t wire_ns; /* bits / clock, rounded up per transaction */
     uint64_t gap_ns;
     uint64_t delay_ns; /* pauses asked for */
-    uint64_t work_ns;  /* reported by sim_bus_work */
+    uint64_t work_ns;  /* reported by sim_bus_work, or by a listener */
     uint64_t idle_ns;  /* spent waiting for data on the wire, after any work */
 } sim_bus_counts_t;
+
+/* What the caller has computed for since the last call, in ns. */
+typedef uint64_t (*sim_bus_work_fn)(void *context);
 
 typedef struct sim_bus {
     tuile_bus_t bus; /* what a display is given */
@@ -51,6 +54,8 @@ typedef struct sim_bus {
     uint64_t transfers; /* so far: commands and chunks */
     sim_error_t error;  /* the first misuse of the bus by the display, or the chip's fault */
 
+    sim_bus_work_fn listener; /* NULL: none */
+    void *listener_context;
     uint32_t asked_command_hz, asked_pixel_hz;
     const uint8_t *flying; /* the buffer in flight */
     size_t flying_bytes;
@@ -66,6 +71,9 @@ void sim_bus_open(sim_bus_t *bus, const sim_bus_config_t *config, sim_chip_t *ch
 
 /* The caller has computed for work_ns; data in flight went on meanwhile. */
 void sim_bus_work(sim_bus_t *bus, uint64_t work_ns);
+
+/* From now on `work` is asked before anything is done on the bus, and before each wait, what was computed meanwhile. */
+void sim_bus_listen(sim_bus_t *bus, sim_bus_work_fn work, void *context);
 
 /* What is seen by someone who holds the device so that a display of this rotation reads upright; black when the backlight is off.
  * Data in flight have not arrived. out is the caller's to free. 0, or -1 and one line in error. */
