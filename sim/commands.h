@@ -6,6 +6,7 @@ enum { EXIT_USAGE = 2 };
 
 int command_render(int count, char **arguments);
 int command_panels(int count, char **arguments);
+int command_mcus(int count, char **arguments);
 int command_displays(int count, char **arguments);
 int command_card(int count, char **arguments);
 int command_scene(int count, char **arguments);

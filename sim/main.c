@@ -10,6 +10,7 @@ static const char usage[] =
     "\n"
     "  tuile render MODEL [options]       draw a model on a display, or on a simulated panel as pictures\n"
     "  tuile panels                       the panels that there are\n"
+    "  tuile mcus                         the microcontrollers whose pace can be predicted\n"
     "  tuile displays                     what is attached, and why it cannot be used if so\n"
     "  tuile card [options]               a test card: which way is up, the order of the colours, the border\n"
     "  tuile scene [NAME] [options]       a scene of the list that boards draw\n"
@@ -25,9 +26,9 @@ int main(int count, char **arguments) {
         const char *name;
         int (*run)(int count, char **arguments);
     } commands[] = {
-        {"render", command_render}, {"panels", command_panels}, {"displays", command_displays},
-        {"card", command_card},     {"scene", command_scene},   {"mesh", command_mesh},
-        {"font", command_font},     {"faces", command_faces},   {"coverage", command_coverage},
+        {"render", command_render},     {"panels", command_panels}, {"displays", command_displays}, {"card", command_card},
+        {"scene", command_scene},       {"mesh", command_mesh},     {"font", command_font},         {"faces", command_faces},
+        {"coverage", command_coverage}, {"mcus", command_mcus},
     };
     (void)signal(SIGPIPE, SIG_IGN); /* a closed pipe is reported as a write error */
     if (count < 2) {

@@ -12,6 +12,8 @@ const char render_display_usage[] =
     "  --panel NAME             a simulated panel, ili9341 by default; `tuile panels` lists them\n"
     "  --display WHERE          or any display: `tuile card --help` says how they are named\n"
     "  --rotate 0|90|180|270    how the panel is held\n"
+    "  --mcu NAME               a microcontroller that drives it: its clocks, and how many frames a second it would show;\n"
+    "                           `tuile mcus` lists them\n"
     "  --clock HZ               clock of the bus for pixels, like 40M; 0 asks for the panel's usual one\n";
 
 bool render_display_option(render_display_t *part, options_t *options, const char *argument) {
@@ -29,6 +31,14 @@ bool render_display_option(render_display_t *part, options_t *options, const cha
         }
     } else if (strcmp(argument, "--rotate") == 0) {
         if (options_choice(options, &choice, rotations)) { part->rotation = (uint8_t)choice; }
+    } else if (strcmp(argument, "--mcu") == 0) {
+        const char *value = options_value(options);
+        if (!value) { return true; }
+        part->mcu = sim_mcu_find(value);
+        if (!part->mcu) {
+            (void)command_fail("--mcu %s: there is none; `tuile mcus` lists them", value);
+            options->failed = true;
+        }
     } else if (strcmp(argument, "--clock") == 0) {
         (void)render_value_clock(options, &part->clock_hz);
     } else {
@@ -59,6 +69,13 @@ int render_display_open(const render_display_t *part, target_t *target, uint8_t 
     target_config_t config = part->config;
     sim_error_t error = {""};
     if (!part->named && target_parse_panel(&config, "ili9341", &error) != 0) { return command_fail("%s", error.text); }
+    if (part->mcu && config.kind != TARGET_SIM) {
+        return command_fail("--mcu %s: goes with a simulated panel, not with %s", part->mcu->name, config.text);
+    }
+    if (part->mcu && config.mcu && config.mcu != part->mcu) {
+        return command_fail("--mcu %s: %s names another", part->mcu->name, config.text);
+    }
+    if (part->mcu) { config.mcu = part->mcu; }
     if (part->clock_hz) { config.clock_hz = (uint32_t)part->clock_hz; }
     if (config.module && wire != TUILE_WIRE_DEFAULT) {
         const uint8_t found = find_wire(&config.panel, wire);

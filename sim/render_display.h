@@ -11,7 +11,8 @@
 typedef struct render_display {
     bool named; /* --display or --panel was given */
     uint8_t rotation;
-    size_t clock_hz; /* 0 = what the text says, or the panel's usual one */
+    size_t clock_hz;      /* 0 = what the text says, or the panel's usual one */
+    const sim_mcu_t *mcu; /* NULL = what the text says */
     target_config_t config;
 } render_display_t;
 

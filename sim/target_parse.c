@@ -9,7 +9,7 @@
 
 const char target_usage[] =
     "  sim:PANEL[,clock=HZ][,mcu=NAME][,chunk=BYTES]\n"
-    "                           a simulated panel; mcu: the clocks that rp2040, stm32f4, esp32 or atmega328p can make\n"
+    "                           a simulated panel; mcu: as --mcu, one of `tuile mcus`\n"
     "  spi:/dev/spidevB.C,panel=PANEL,dc=CHIP:LINE[,rst=...][,bl=...][,te=...][,clock=HZ][,mode=0...3][,worker=0]\n"
     "                           a panel on Linux's spidev, its lines by GPIO chip and number, like gpiochip0:25, or\n"
     "                           gpiochip0:25:low where the line is active low\n"
@@ -110,7 +110,7 @@ static int panel_part(target_config_t *config, const part_t *part, sim_error_t *
 static int sim_part(target_config_t *config, const part_t *part, sim_error_t *error) {
     if (strcmp(part->key, "mcu") == 0) {
         config->mcu = sim_mcu_find(part->value);
-        return config->mcu ? 1 : refuse(config, part, "rp2040, stm32f4, esp32 or atmega328p", error);
+        return config->mcu ? 1 : refuse(config, part, "one that `tuile mcus` lists", error);
     }
     if (strcmp(part->key, "chunk") == 0) {
         return read_number(part->value, TUILE_CHUNK_LEAST_BYTES, UINT32_MAX, &config->max_chunk_bytes)
