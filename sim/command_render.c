@@ -12,6 +12,8 @@
 #include "render_light.h"
 #include "render_mesh.h"
 #include "render_overlay.h"
+#include "render_predict.h"
+#include "render_report.h"
 #include "render_surface.h"
 #include "render_update.h"
 #include "render_value.h"
@@ -63,6 +65,7 @@ static void print_usage(FILE *file) {
     (void)fputs(usage, file);
     (void)fputs(render_display_usage, file);
     (void)fputs(render_update_usage, file);
+    (void)fputs(render_predict_usage, file);
     (void)fputs(render_light_usage, file);
     (void)fputs(render_mesh_usage, file);
     (void)fputs(render_format_usage, file);
@@ -88,6 +91,7 @@ typedef struct render {
     render_overlay_t overlay;
     render_layer_t layer;
     render_update_t update;
+    render_predict_t predict;
     mesh_options_t mesh_options;
     view_options_t view_options;
 
@@ -199,7 +203,8 @@ static int parse(render_t *r, int count, char **arguments) {
                    !render_mesh_option(&r->mesh_options, &options, argument) &&
                    !render_surface_option(&r->surface, &options, argument) && !render_world_option(&r->world, &options, argument) &&
                    !render_light_option(&r->light, &options, argument) && !render_overlay_option(&r->overlay, &options, argument) &&
-                   !render_layer_option(&r->layer, &options, argument) && !render_update_option(&r->update, &options, argument)) {
+                   !render_layer_option(&r->layer, &options, argument) && !render_update_option(&r->update, &options, argument) &&
+                   !render_predict_option(&r->predict, &options, argument)) {
             options_unknown(&options);
         }
     }
@@ -287,6 +292,9 @@ static int set_up(render_t *r) {
     render_world_sizes(&r->world, &r->sizes);
     r->on_display = r->where.named || !render_format_is_decoded(&r->format);
     const uint8_t wire = r->on_display && r->format.named ? (uint8_t)(r->format.format + 1) : TUILE_WIRE_DEFAULT;
+    if (!r->on_display && r->where.mcu) {
+        return command_fail("--mcu %s: no simulated panel takes this --format; name one that does by --panel", r->where.mcu->name);
+    }
     if (render_display_open(&r->where, &r->target, wire) != 0) { return EXIT_FAILURE; }
     render_display_apply(&r->target, &r->config);
     if (r->on_display && !target_is_simulated(&r->target)) {
@@ -303,10 +311,12 @@ static int set_up(render_t *r) {
     render_light_apply(&r->light, &r->config);
     if (render_overlay_apply(&r->overlay, &r->config) != 0) { return EXIT_FAILURE; }
     render_surface_apply(&r->surface, &r->sizes, &r->config);
+    render_predict_apply(&r->predict, r->on_display ? &r->target : NULL, &r->config);
     if (open_renderer(&r->renderer, &r->block, &r->config, &r->sizes, r->on_display ? r->target.display.align_y : 1,
                       &r->memory_bytes) != 0) {
         return EXIT_FAILURE;
     }
+    render_predict_start(&r->predict, r->renderer, &r->update.update.summing, &r->target);
     if (view_make(&r->view, &r->view_options, &r->model, r->config.width, r->config.height, (unsigned)r->frames, &r->error) != 0) {
         return command_fail("%s", r->error.text);
     }
@@ -345,6 +355,7 @@ static int write_ids(render_t *r, unsigned frame) {
     config.aa = TUILE_AA_NONE;
     config.dither = false;
     config.overlay = NULL;
+    config.trace = NULL;
     config.effects = 0;
     config.edges = TUILE_EDGES_NONE;
     scene.line_count = scene.sprite_count = 0; /* which have no number */
@@ -403,49 +414,6 @@ static int print_pick(render_t *r) {
     return 0;
 }
 
-static void report_frame(const render_t *r, unsigned frame, const char *hash) {
-    const tuile_stats_t *s = &r->stats;
-    const tuile_config_t *c = tuile_config(r->renderer);
-    FILE *f = r->report_file.file;
-    char format[64];
-    render_format_text(c, format, sizeof format);
-    (void)fprintf(
-        f,
-        "%s\n    {\"frame\": %u, \"hash\": \"%s\", \"width\": %u, \"height\": %u, \"tile_width\": %u, \"tile_height\": %u,\n"
-        "     \"format\": \"%s\",\n",
-        frame ? "," : "", frame, hash, c->width, c->height, c->tile_width, c->tile_height, format);
-    (void)fprintf(f,
-                  "     \"instances\": %u, \"instances_outside\": %u, \"faces\": %u, \"clusters\": %u, \"clusters_outside\": %u, "
-                  "\"clusters_facing_away\": %u, \"vertices\": %u,\n",
-                  s->instances, s->instances_outside, s->faces, s->clusters, s->clusters_outside, s->clusters_facing_away,
-                  s->vertices);
-    (void)fprintf(
-        f,
-        "     \"faces_tested\": %u, \"faces_back\": %u, \"faces_degenerate\": %u, \"faces_outside\": %u, \"faces_clipped\": %u,\n"
-        "     \"faces_clipped_away\": %u, \"faces_binned\": %u, \"faces_setup\": %u, \"faces_resumed\": %u,\n",
-        s->faces_tested, s->faces_back, s->faces_degenerate, s->faces_outside, s->faces_clipped, s->faces_clipped_away,
-        s->faces_binned, s->faces_setup, s->faces_resumed);
-    switch (c->method) {
-    case TUILE_SCANLINE: (void)fprintf(f, "     \"active_max\": %u,\n", s->active_max); break;
-    case TUILE_WARNOCK:
-        (void)fprintf(f, "     \"windows\": %u, \"windows_depth\": %u, \"windows_pixels\": %u, \"windows_waiting\": %u,\n",
-                      s->windows, s->windows_depth, s->windows_pixels, s->windows_waiting);
-        break;
-    case TUILE_PAINTER:
-        (void)fprintf(f, "     \"compared\": %u, \"moved\": %u, \"splits\": %u,\n", s->compared, s->moved, s->splits);
-        break;
-    case TUILE_TREE: (void)fprintf(f, "     \"nodes\": %u, \"instances_sorted\": %u,\n", s->nodes, s->instances_sorted); break;
-    default: break;
-    }
-    (void)fprintf(f,
-                  "     \"passes\": %u, \"tiles\": %u, \"tiles_narrow\": %u, \"size_bytes\": %u, \"least_bytes\": %u, "
-                  "\"peak_bytes\": %u,\n"
-                  "     \"wire_bytes\": %llu, \"wire_ns\": %llu, \"fps_bus\": %.2f}",
-                  s->passes, s->tiles, s->tiles_narrow, s->size_bytes, s->least_bytes, s->peak_bytes,
-                  (unsigned long long)r->wire_bytes, (unsigned long long)r->frame_ns,
-                  r->frame_ns ? 1e9 / (double)r->frame_ns : 0.0);
-}
-
 #define SHOW_ZOOM 3u
 
 static int write_show(render_t *r, const char *name) {
@@ -465,8 +433,10 @@ static int write_show(render_t *r, const char *name) {
 /* The frame by way of the display: what is seen, and the panel's memory as it lies, where that is simulated. */
 static int draw_displayed(render_t *r, sim_picture_t *picture, sim_picture_t *glass) {
     target_begin_frame(&r->target);
+    render_predict_frame_begin(&r->predict, &r->target);
     const int result = render_update_frame(&r->update, r->renderer, &r->view.scene, &r->target.display, &r->stats);
     if (result) { return result; }
+    render_predict_frame_end(&r->predict, &r->target);
     target_frame_figures(&r->target, &r->wire_bytes, &r->frame_ns);
     return target_is_simulated(&r->target) ? target_picture(&r->target, picture, glass, &r->error) != 0 : 0;
 }
@@ -511,7 +481,11 @@ static int draw_frame(render_t *r, unsigned frame) {
         }
     }
     if (code == 0 && r->ids) { code = write_ids(r, frame); }
-    if (code == 0 && r->report) { report_frame(r, frame, hash); }
+    if (code == 0 && r->report) {
+        const render_report_t figures = {frame,       hash,       tuile_config(r->renderer), &r->stats, r->wire_bytes,
+                                         r->frame_ns, &r->predict};
+        render_report_frame(&figures, r->report_file.file);
+    }
     if (r->pictures) {
         r->pictures[frame] = picture;
     } else {
@@ -561,6 +535,7 @@ static int run(render_t *r) {
         (void)printf("%s: %u faces; memory given %u, least %u, used %u bytes, %u pass%s; %u tiles, %llu bytes on the wire%s\n",
                      r->model_path, r->stats.faces, r->stats.size_bytes, r->stats.least_bytes, r->peak_bytes, r->passes_max,
                      r->passes_max == 1 ? "" : "es", r->stats.tiles, (unsigned long long)r->wire_bytes, bus);
+        render_predict_tell(&r->predict, tuile_config(r->renderer));
     }
     render_update_tell(&r->update);
     render_overlay_tell(&r->stats);

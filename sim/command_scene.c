@@ -6,6 +6,7 @@
 #include "mesh/mesh.h"
 #include "render_display.h"
 #include "render_format.h"
+#include "render_predict.h"
 #include "render_update.h"
 #include "render_value.h"
 
@@ -44,6 +45,7 @@ typedef struct scene_command {
     render_format_t format;
     render_update_t update;
     uint64_t wire_bytes; /* of all frames but the first */
+    render_predict_t predict;
 
     const scene_script_t *script;
     uint8_t *bytes, *font;
@@ -102,8 +104,10 @@ static int parse(scene_command_t *c, int count, char **arguments) {
             (void)fputs(usage, stdout);
             (void)fputs(render_update_usage, stdout);
             (void)fputs(render_display_usage, stdout);
+            (void)fputs(render_predict_usage, stdout);
             return -1;
         } else if (!render_display_option(&c->where, &options, argument) && !render_update_option(&c->update, &options, argument) &&
+                   !render_predict_option(&c->predict, &options, argument) &&
                    (strcmp(argument, "--format") != 0 || !render_format_option(&c->format, &options, argument))) {
             options_unknown(&options);
         }
@@ -155,6 +159,16 @@ static int open_caption(scene_command_t *c, player_config_t *config) {
     return 0;
 }
 
+/* The same renderer once more, with what a prediction wants of it: boards' players know nothing of that. */
+static int predict(scene_command_t *c) {
+    tuile_config_t config = *tuile_config(c->player.renderer);
+    render_predict_apply(&c->predict, &c->target, &config);
+    const int result = tuile_init(&c->player.renderer, &config, c->block, c->memory_bytes, NULL);
+    if (result) { return command_fail("scene %s: %s", c->name, tuile_error_text(result)); }
+    render_predict_start(&c->predict, c->player.renderer, &c->update.update.summing, &c->target);
+    return 0;
+}
+
 static int set_up(scene_command_t *c) {
     const uint8_t wire = c->format.named ? (uint8_t)(c->format.format + 1) : TUILE_WIRE_DEFAULT;
     player_config_t config = {
@@ -184,7 +198,8 @@ static int set_up(scene_command_t *c) {
         return command_fail("--memory: %zu bytes are too few; at least %zu are wanted", c->memory_bytes, c->player.wanted_bytes);
     }
     if (result) { return command_fail("scene %s: %s", c->name, tuile_stream_error_text(result)); }
-    return render_update_open(&c->update, tuile_config(c->player.renderer), 1);
+    const int code = predict(c);
+    return code ? code : render_update_open(&c->update, tuile_config(c->player.renderer), 1);
 }
 
 /* FNV-1a, 64 bits, over rows of red, green, blue. */
@@ -202,8 +217,10 @@ static int draw(scene_command_t *c, unsigned number) {
     char name[4096];
     uint64_t bytes, frame_ns;
     target_begin_frame(&c->target);
+    render_predict_frame_begin(&c->predict, &c->target);
     int result = c->phase < 0 ? scene_frame(&c->player.stage, number) : scene_phase(&c->player.stage, (bam16_t)c->phase);
     if (!result) { result = player_show(&c->player); }
+    render_predict_frame_end(&c->predict, &c->target);
     if (result == TUILE_ERROR_MEMORY) {
         return command_fail("frame %u: --memory: %zu bytes are too few for this method; %zu would do", number, c->memory_bytes,
                             c->player.wanted_bytes);
@@ -241,6 +258,7 @@ static int run(scene_command_t *c) {
         if (c->frames > 1 && c->wire_bytes) {
             (void)printf("wire: after the first frame %llu bytes, commands and all\n", (unsigned long long)c->wire_bytes);
         }
+        render_predict_tell(&c->predict, tuile_config(c->player.renderer));
     }
     return command_finish();
 }

@@ -1,0 +1,373 @@
+/* Predicted pace: events counted from a picture that is known, costs made up here, and the clock of a bus on which drawing and
+ * sending overlap. All expected values are from hand. */
+#include "support/check.h"
+
+#include "../sim/predict.h"
+#include "support/board.h"
+#include "support/cli.h"
+#include "support/scenes.h"
+
+#include <math.h>
+#include <unistd.h>
+
+/* ---- arithmetic --------------------------------------------------------------------------------------------------- */
+
+static void instructions_are_events_times_their_costs(void **state) {
+    (void)state;
+    predict_costs_t costs = {.core = "x",
+                             .milli = {[PREDICT_FRAME] = 1000000, [PREDICT_VERTEX] = 12250, [PREDICT_SMALL_FRAGMENT] = 400}};
+    predict_events_t events = {{[PREDICT_FRAME] = 1, [PREDICT_VERTEX] = 2, [PREDICT_TILE] = 99, [PREDICT_SMALL_FRAGMENT] = 10}};
+    assert_int_equal(predict_instructions(&costs, &events), 1000 + 29); /* 24.5 + 4 = 28.5, to the nearest: up */
+    events.count[PREDICT_SMALL_FRAGMENT] = 9;
+    assert_int_equal(predict_instructions(&costs, &events), 1000 + 28); /* 24.5 + 3.6 = 28.1 */
+    for (unsigned i = 0; i < PREDICT_EVENT_COUNT; i++) {
+        costs.milli[i] = 1000u << 18;
+        events.count[i] = INT32_MAX;
+    }
+    assert_true(predict_instructions(&costs, &events) == ((uint64_t)INT32_MAX << 18) * PREDICT_EVENT_COUNT);
+}
+
+static void time_is_cycles_of_the_core(void **state) {
+    (void)state;
+    const sim_mcu_t mcu = {.core_hz = 125000000, .cycles_milli = 1400};
+    assert_int_equal(predict_ns(&mcu, 0), 0);
+    assert_int_equal(predict_ns(&mcu, 1000), 11200); /* 1400 cycles of 8 ns */
+    assert_int_equal(predict_ns(&mcu, 1), 12);       /* 11.2, rounded up */
+    assert_int_equal(predict_ns(&mcu, 125000000), 1400000000);
+    /* 2^33 * 1.4 * 8 ns = 96 207 267 430.4 ns */
+    assert_true(predict_ns(&mcu, UINT64_C(1) << 33) == UINT64_C(96207267431));
+    const sim_mcu_t slow = {.core_hz = 16000000, .cycles_milli = 1000, .transfer_cycles = 3};
+    assert_int_equal(predict_ns(&slow, 16), 1000);
+    assert_int_equal(sim_mcu_transfer_ns(&slow), 188); /* 187.5 */
+}
+
+static void the_longer_of_both_binds(void **state) {
+    (void)state;
+    char text[160];
+    assert_int_equal(predict_bound(2, 1), PREDICT_RENDER_BOUND);
+    assert_int_equal(predict_bound(1, 1), PREDICT_RENDER_BOUND);
+    assert_int_equal(predict_bound(1, 2), PREDICT_BUS_BOUND);
+    assert_true(predict_ratio(3, 6) == 2.0 && predict_ratio(6, 3) == 2.0 && predict_ratio(0, 5) == 0.0 &&
+                predict_ratio(7, 7) == 1.0);
+    const sim_mcu_t mcu = {.name = "chip"};
+    predict_t predict = {.mcu = &mcu, .frames = 2, .render_sum_ns = 72000000, .wire_sum_ns = 40000000, .frame_sum_ns = 80000000};
+    predict_text(&predict, text, sizeof text);
+    assert_string_equal(text, "chip: 25.0 frames a second (40.00 ms), render-bound: drawing takes 1.8 times as long as the wire");
+    predict.render_sum_ns = 10000000;
+    predict_text(&predict, text, sizeof text);
+    assert_string_equal(text, "chip: 25.0 frames a second (40.00 ms), bus-bound: the wire takes 4.0 times as long as drawing");
+}
+
+static void overlay(void *context, tuile_canvas_t *canvas) { (void)context, (void)canvas; }
+
+static void what_nobody_counted_is_said(void **state) {
+    (void)state;
+    char text[128];
+    tuile_config_t config = {.effects = TUILE_SURFACES};
+    const predict_costs_t costs = {.core = "x"}, compact = {.core = "compact"};
+    assert_false(predict_leaves_out(&costs, &config, text, sizeof text));
+    assert_string_equal(text, "");
+    config =
+        (tuile_config_t){.format = TUILE_GREY4, .dither = true, .overlay = overlay, .aa = TUILE_AA_2X2, .effects = TUILE_LAYERS};
+    assert_true(predict_leaves_out(&costs, &config, text, sizeof text));
+    assert_string_equal(text, "overlay, pixels that are not RGB565, dithering, anti-aliasing, layers");
+    assert_true(predict_leaves_out(&costs, &config, text, 12)); /* cut short, not beyond */
+    assert_string_equal(text, "overlay, pi");
+    config = (tuile_config_t){.format = TUILE_MONO_PAGES};
+    assert_false(predict_leaves_out(&compact, &config, text, sizeof text));
+    assert_true(predict_leaves_out(&costs, &config, text, sizeof text));
+    config.format = TUILE_RGB565_BE;
+    assert_true(predict_leaves_out(&compact, &config, text, sizeof text));
+    assert_string_equal(text, "pixels that are not black and white");
+}
+
+static void every_core_and_shading_has_costs(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sim_mcu_count; i++) {
+        const sim_mcu_t *mcu = &sim_mcus[i];
+        const bool compact = strcmp(mcu->core, "compact") == 0;
+        for (unsigned kind = 0; kind < 4 && !compact; kind++) {
+            tuile_config_t config = {.shade = kind & 1 ? TUILE_GOURAUD : TUILE_FLAT, .effects = kind & 2 ? TUILE_SURFACES : 0};
+            const predict_costs_t *costs = predict_costs_find(mcu, &config);
+            assert_non_null(costs);
+            assert_string_equal(costs->core, mcu->core);
+            assert_int_equal(costs->shade, config.shade);
+            assert_int_equal(costs->textured, config.effects != 0);
+            config.method = TUILE_PAINTER;
+            assert_null(predict_costs_find(mcu, &config));
+        }
+        assert_true(mcu->cycles_milli >= 1000 && mcu->cycles_from);
+    }
+    const sim_mcu_t *uno = sim_mcu_find("atmega328p");
+    assert_non_null(predict_costs_find(uno, &(tuile_config_t){.method = TUILE_ZBUFFER}));
+    assert_non_null(predict_costs_find(uno, &(tuile_config_t){.method = TUILE_TREE}));
+    assert_null(predict_costs_find(uno, &(tuile_config_t){.method = TUILE_SCANLINE}));
+    assert_null(predict_costs_find(uno, &(tuile_config_t){.shade = TUILE_GOURAUD}));
+}
+
+/* ---- events ------------------------------------------------------------------------------------------------------- */
+
+static void check_events(const predict_events_t *events, const uint64_t expected[PREDICT_EVENT_COUNT]) {
+    for (unsigned i = 0; i < PREDICT_EVENT_COUNT; i++) {
+        if (events->count[i] != expected[i]) {
+            fail_msg("event %u: %u, not %u", i, (unsigned)events->count[i], (unsigned)expected[i]);
+        }
+    }
+}
+
+/* A rectangle of 8 x 16 pixels in rows 4 to 19 of three tiles of 8 rows: 4, 8 and 4 of them. */
+static void events_come_with_the_tile_that_they_happen_in(void **state) {
+    (void)state;
+    static const uint64_t expected[3][PREDICT_EVENT_COUNT] = {
+        {[PREDICT_FRAME] = 1,
+         [PREDICT_CLUSTER] = 1,
+         [PREDICT_VERTEX] = 4,
+         [PREDICT_POLYGON_TESTED] = 1,
+         [PREDICT_FACE_BINNED] = 1,
+         [PREDICT_FACE_SET_UP] = 1,
+         [PREDICT_POLYGON_IN_TILE] = 1,
+         [PREDICT_TILE] = 1,
+         [PREDICT_TILE_SAMPLE] = 128,
+         [PREDICT_FACE_OF_TILE] = 1,
+         [PREDICT_POLYGON_ROW] = 4,
+         [PREDICT_POLYGON_FRAGMENT] = 32},
+        {[PREDICT_POLYGON_IN_TILE] = 1,
+         [PREDICT_TILE] = 1,
+         [PREDICT_TILE_SAMPLE] = 128,
+         [PREDICT_FACE_OF_TILE] = 1,
+         [PREDICT_POLYGON_ROW] = 8,
+         [PREDICT_POLYGON_FRAGMENT] = 64},
+        {[PREDICT_POLYGON_IN_TILE] = 1,
+         [PREDICT_TILE] = 1,
+         [PREDICT_TILE_SAMPLE] = 128,
+         [PREDICT_FACE_OF_TILE] = 1,
+         [PREDICT_POLYGON_ROW] = 4,
+         [PREDICT_POLYGON_FRAGMENT] = 32},
+    };
+    static const uint64_t none[PREDICT_EVENT_COUNT] = {0};
+    static _Alignas(8) uint8_t block[65536];
+    test_scene_t scene;
+    predict_meter_t meter;
+    predict_events_t events;
+    tuile_t *renderer;
+    tuile_tile_t tile;
+    test_scene_open(&scene, "screen 16 24\ncamera ortho\nsample 1/2 1/2\npoly 1 4,4,0 12,4,0 12,20,0 4,20,0\n");
+    predict_meter_open(&meter);
+    const tuile_config_t config = {.width = 16, .height = 24, .tile_height = 8, .trace = &meter.trace};
+    events = predict_meter_take(&meter); /* no renderer yet */
+    check_events(&events, none);
+    assert_int_equal(tuile_init(&renderer, &config, block, sizeof block, NULL), 0);
+    meter.renderer = renderer;
+    for (unsigned frame = 0; frame < 2; frame++) {
+        predict_meter_begin(&meter);
+        events = predict_meter_take(&meter);
+        check_events(&events, none);
+        assert_int_equal(tuile_begin(renderer, &scene.scene), 0);
+        for (unsigned i = 0; i < 3; i++) {
+            assert_int_equal(tuile_next(renderer, &tile), 1);
+            events = predict_meter_take(&meter);
+            check_events(&events, expected[i]);
+        }
+        events = predict_meter_take(&meter);
+        check_events(&events, none);
+        assert_int_equal(tuile_next(renderer, &tile), 0);
+        assert_int_equal(tuile_end(renderer, NULL), 0);
+        events = predict_meter_take(&meter);
+        check_events(&events, none);
+    }
+    test_scene_close(&scene);
+}
+
+/* ---- the clock ---------------------------------------------------------------------------------------------------- */
+
+static uint64_t take_work(void *context) {
+    uint64_t *left = context;
+    const uint64_t work = *left;
+    *left = 0;
+    return work;
+}
+
+/* Three tiles of 240 x 10 pixels at 10 MHz, 3.84 ms each, in windows of 11 bytes, 8.8 us; each drawn in so much. Returns the time.
+ */
+static uint64_t send_three(uint64_t work_ns, bool one_buffer, bool blocking, uint32_t gap_ns) {
+    static const uint8_t bytes[4800];
+    uint64_t left = 0, begun;
+    board_t board;
+    board_open(&board, &(sim_bus_config_t){.clock_hz = 10000000,
+                                           .command_clock_hz = 10000000,
+                                           .blocking = blocking,
+                                           .command_gap_ns = gap_ns,
+                                           .chunk_gap_ns = gap_ns});
+    assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+    sim_bus_listen(&board.bus, take_work, &left);
+    board.bus.counts = (sim_bus_counts_t){0};
+    begun = board.bus.now_ns;
+    for (uint32_t i = 0; i < 3; i++) {
+        left = work_ns;
+        assert_int_equal(tuile_display_window(&board.display, 0, 10 * i, 240, 10), 0);
+        assert_int_equal(tuile_display_write(&board.display, bytes, sizeof bytes), 0);
+        if (one_buffer) { assert_int_equal(tuile_display_wait(&board.display), 0); }
+    }
+    assert_int_equal(tuile_display_wait(&board.display), 0);
+    assert_int_equal(left, 0);
+    assert_true(board.bus.counts.work_ns == 3 * work_ns);
+    const uint64_t taken = board.bus.now_ns - begun;
+    board_check_clean(&board);
+    board_close(&board);
+    return taken;
+}
+
+static void drawing_hides_behind_the_wire_or_the_wire_behind_drawing(void **state) {
+    (void)state;
+    /* Drawing is longer: three times 5 ms and a window, and the last tile's 3.84 ms. */
+    assert_int_equal(send_three(5000000, false, false, 0), 15000000 + 26400 + 3840000);
+    /* The wire is: 1 ms, then three times a window and 3.84 ms. */
+    assert_int_equal(send_three(1000000, false, false, 0), 1000000 + 26400 + 11520000);
+    /* One buffer, and a core that feeds the wire itself: one after the other. */
+    assert_int_equal(send_three(5000000, true, false, 0), 15000000 + 26400 + 11520000);
+    assert_int_equal(send_three(5000000, false, true, 0), 15000000 + 26400 + 11520000);
+    /* 1 us for each of three commands, which nothing hides, and for the last chunk; the other two are behind drawing. */
+    assert_int_equal(send_three(5000000, false, false, 1000), 15000000 + 26400 + 9000 + 1000 + 3840000);
+}
+
+/* ---- as a user meets it --------------------------------------------------------------------------------------------- */
+
+/* Figures of the first frame of a report. */
+typedef struct figures {
+    double render, wire, frame, lead, tiles;
+} figures_t;
+
+static double number_after(const char *text, const char *word) {
+    const char *at = strstr(text, word);
+    if (!at) { fail_msg("no %s in %s", word, text); }
+    return at ? strtod(at + strlen(word), NULL) : 0;
+}
+
+static char *report_of(const char *arguments) {
+    char line[1024];
+    (void)snprintf(line, sizeof line, "render %s --report @/p.json", arguments);
+    cli_good_silent(line);
+    char *text = command_read(cli_path("p.json"), NULL);
+    assert_non_null(text);
+    (void)unlink(cli_path("p.json"));
+    return text;
+}
+
+static figures_t figures_of(const char *arguments) {
+    char *text = report_of(arguments);
+    const figures_t f = {number_after(text, "\"render_ns\": "), number_after(text, "\"wire_ns\": "),
+                         number_after(text, "\"frame_ns\": "), number_after(text, "\"lead_ns\": "),
+                         number_after(text, "\"tiles\": ")};
+    free(text);
+    return f;
+}
+
+static void a_report_says_what_binds_and_by_how_much(void **state) {
+    (void)state;
+    for (unsigned i = 0; i < 2; i++) {
+        char *text = report_of(i ? "@/torus.obj --panel st7789-240x240 --mcu rp2040 --clock 62.5M"
+                                 : "@/cube.obj --panel ili9341 --mcu stm32f4");
+        const double render = number_after(text, "\"render_ns\": "), wire = number_after(text, "\"wire_ns\": ");
+        const double frame = number_after(text, "\"frame_ns\": "), instructions = number_after(text, "\"instructions\": ");
+        const sim_mcu_t *mcu = sim_mcu_find(i ? "rp2040" : "stm32f4");
+        assert_non_null(strstr(text, i ? "\"bound\": \"render\"" : "\"bound\": \"bus\""));
+        assert_true(fabs(number_after(text, "\"bound_by\": ") - (i ? render / wire : wire / render)) <= 0.005001);
+        assert_true(fabs(number_after(text, "\"fps\": ") - 1e9 / frame) <= 0.005001);
+        /* Rounded up for each tile. */
+        assert_true(fabs(render - instructions * mcu->cycles_milli / 1000.0 * 1e9 / mcu->core_hz) < 1000);
+        assert_true(frame >= render && frame >= wire && frame < render + wire);
+        assert_non_null(strstr(text, "\"not_counted\": \"\""));
+        free(text);
+    }
+    char *text = cli_good("render @/torus.obj --panel st7789-240x240 --mcu rp2040 --clock 62.5M --overlay-text 8,8,x");
+    assert_non_null(strstr(text, "rp2040: "));
+    assert_non_null(strstr(text, " ms), render-bound: drawing takes "));
+    assert_non_null(strstr(text, "; not counted: overlay\n"));
+    free(text);
+    text = cli_good("render @/cube.obj --mcu atmega328p");
+    assert_non_null(strstr(text, "; not counted: pixels that are not black and white\n"));
+    free(text);
+    text = cli_good("render @/cube.obj --display sim:ili9341,mcu=rp2040 --method scanline");
+    assert_non_null(strstr(text, "rp2040: no prediction: nobody has counted what this method and shading take there\n"));
+    free(text);
+}
+
+static void with_one_buffer_drawing_and_sending_add_up(void **state) {
+    (void)state;
+    const char *scene = "@/torus.obj --panel st7789-240x240 --mcu rp2040 --clock 20M --tile 240x24";
+    char line[256];
+    (void)snprintf(line, sizeof line, "%s --buffers 1", scene);
+    const figures_t one = figures_of(line), two = figures_of(scene);
+    assert_true(one.frame == one.render + one.wire);
+    assert_true(two.render == one.render && two.wire == one.wire && two.frame < one.frame);
+}
+
+/* Drawing before the first pixels go out has no wire to hide behind, and the last tile's pixels no drawing. Where every tile is
+ * drawn faster than it is sent, a frame takes the wire's time and that drawing; where every tile with much in it takes longer,
+ * drawing's time and little more. Between the two tiles wait for one another, and no bound holds but the sum. */
+static void a_frame_takes_three_hundredths_over_the_longer_where_tiles_are_alike(void **state) {
+    (void)state;
+    const char *bunny = getenv("BUNNY_6000");
+    static const char *const bus_bound[] = {
+        "@/room.obj --panel ili9341 --mcu rp2040 --clock 10M --tile 240x8 --eye 0,0,2 --at 0,0,0 --fov 80",
+        "@/cube.obj --panel ili9341 --mcu stm32f4 --clock 10M --tile 240x8",
+        "@/room.obj --panel st7796 --mcu esp32 --clock 20M --tile 320x8 --eye 0,0,2 --at 0,0,0 --fov 80",
+        "@/octahedron.obj --panel st7789-240x240 --mcu esp32c3 --clock 20M --tile 240x16",
+    };
+    static const char *const render_bound[] = {
+        "--panel st7789-240x240 --mcu rp2040 --clock 62.5M --tile 240x22",
+        "--panel st7789-240x240 --mcu rp2040 --clock 62.5M --tile 240x8 --shade gouraud",
+        "--panel st7789-240x240 --mcu rp2040 --clock 62.5M --tile 240x16 --rotate 90 --shade gouraud",
+    };
+    for (size_t i = 0; i < CHECK_COUNT(bus_bound); i++) {
+        const figures_t f = figures_of(bus_bound[i]);
+        assert_true(f.render < f.wire && f.lead < f.render);
+        if (f.frame > 1.03 * f.wire || fabs(f.frame - f.wire - f.lead) > 1000) {
+            fail_msg("%s: drawing %.3f ms, %.3f of it first, the wire %.3f, the frame %.3f", bus_bound[i], f.render / 1e6,
+                     f.lead / 1e6, f.wire / 1e6, f.frame / 1e6);
+        }
+    }
+    assert_non_null(bunny);
+    for (size_t i = 0; i < CHECK_COUNT(render_bound); i++) {
+        char line[512];
+        (void)snprintf(line, sizeof line, "%s %s", bunny, render_bound[i]);
+        const figures_t f = figures_of(line);
+        assert_true(f.render > f.wire);
+        if (f.frame > 1.03 * f.render || f.frame < f.render + f.wire / f.tiles) {
+            fail_msg("%s: drawing %.3f ms, the wire %.3f, the frame %.3f", line, f.render / 1e6, f.wire / 1e6, f.frame / 1e6);
+        }
+    }
+}
+
+static void bad_values_are_told(void **state) {
+    (void)state;
+    cli_fails("render @/cube.obj --mcu z80", "--mcu z80", "tuile mcus");
+    cli_fails("render @/cube.obj --mcu", "--mcu", "value");
+    cli_fails("render @/cube.obj --buffers 3", "--buffers", "out of range");
+    cli_fails("render @/cube.obj --mcu rp2040 --display usb:gud", "--mcu rp2040", "usb:gud");
+    cli_fails("render @/cube.obj --mcu rp2040 --display sim:ili9341,mcu=esp32", "--mcu rp2040", "names another");
+    cli_fails("render @/cube.obj --mcu rp2040 --format grey8 --size 64x64", "--mcu rp2040", "--format");
+    cli_fails("mcus rp2040", "mcus", "rp2040");
+    char *text = cli_good("mcus");
+    for (size_t i = 0; i < sim_mcu_count; i++) {
+        assert_non_null(strstr(text, sim_mcus[i].name));
+    }
+    free(text);
+}
+
+int main(void) {
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(instructions_are_events_times_their_costs),
+        cmocka_unit_test(time_is_cycles_of_the_core),
+        cmocka_unit_test(the_longer_of_both_binds),
+        cmocka_unit_test(what_nobody_counted_is_said),
+        cmocka_unit_test(every_core_and_shading_has_costs),
+        cmocka_unit_test(events_come_with_the_tile_that_they_happen_in),
+        cmocka_unit_test(drawing_hides_behind_the_wire_or_the_wire_behind_drawing),
+        cmocka_unit_test(a_report_says_what_binds_and_by_how_much),
+        cmocka_unit_test(with_one_buffer_drawing_and_sending_add_up),
+        cmocka_unit_test(a_frame_takes_three_hundredths_over_the_longer_where_tiles_are_alike),
+        cmocka_unit_test(bad_values_are_told),
+    };
+    return cmocka_run_group_tests_name("predict", tests, cli_set_up, cli_tear_down);
+}
