@@ -142,8 +142,8 @@ endef
 $(foreach board,$(BOARDS),$(eval $(call firmware_board,$(board))))
 
 firmware: ## every board's programs: elf, bin and hex in build/firmware/BOARD
+no_board = echo "There is no board $(1); there are: $(2)" >&2; exit 1
 firmware-%:
-	@echo "There is no board $*; there are: $(BOARDS) uno" >&2; exit 1
-FLASHED := pico pico2 blackpill
+	@$(call no_board,$*,$(BOARDS) uno)
 flash-%:
-	@echo "There is no board $* that is flashed from here; there are: $(FLASHED)" >&2; exit 1
+	@$(call no_board,$* to flash from here,blackpill pico pico2)

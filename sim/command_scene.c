@@ -70,7 +70,6 @@ static int parse(scene_command_t *c, int count, char **arguments) {
     c->frames = 1;
     c->phase = -1;
     c->memory_bytes = 256u * 1024u;
-    c->models = "build/firmware/models";
     options_open(&options, count, arguments);
     while ((argument = options_next(&options)) != NULL) {
         if (!options.name) {
@@ -137,8 +136,8 @@ static int load(scene_command_t *c, player_config_t *config) {
     char path[4096];
     mesh_report_t report;
     sim_error_t error = {""};
-    if (any && !c->model) { return command_fail("scene %s: --model FILE tells which", c->name); }
-    (void)snprintf(path, sizeof path, "%s/%s.tuile", c->models, c->script->model);
+    if (any && !c->model && !c->models) { return command_fail("scene %s: --model FILE tells which", c->name); }
+    (void)snprintf(path, sizeof path, "%s/%s.tuile", c->models ? c->models : "build/firmware/models", c->script->model);
     if (mesh_load(c->model ? c->model : path, 0, &options, &c->bytes, &config->model_bytes, &report, &error) != 0) {
         return command_fail("%s%s", error.text, c->model ? "" : " (`make firmware-models` compiles the models of the scenes)");
     }

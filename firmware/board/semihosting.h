@@ -1,7 +1,8 @@
 /* What a debugger or an emulator does for a program that asks for it: Arm's semihosting, which RISC-V has taken over. Operations
  * and their blocks of arguments: Arm, Semihosting for AArch32 and AArch64, release 3, chapter 6.
  *
- * Without somebody who answers, the request is a fault on Arm and a trap on RISC-V: semihosting_asking tells the handler. */
+ * Without somebody who answers, the request is a fault on Arm and a trap on RISC-V: semihosting_asking tells the handler. On Arm the
+ * program then goes on: it has no options, and does not end. */
 #ifndef TUILE_FIRMWARE_SEMIHOSTING_H
 #define TUILE_FIRMWARE_SEMIHOSTING_H
 

@@ -18,15 +18,19 @@ $(UNO)/model_%.c: $(FIRMWARE)/models/%.tuile $(OBJ)/uno_views
 	@mkdir -p $(@D)
 	@echo "  views $@"; $(OBJ)/uno_views $* $< >$@.new && mv $@.new $@
 
-$(UNO)/model_%.o: $(UNO)/model_%.c | $(BUILD)/need/avr
+.PHONY: toolchain-uno
+toolchain-uno: $(BUILD)/need/avr
+	@command -v avr-gcc >/dev/null || { echo "uno: avr-gcc is not there, though its package is; look at PATH" >&2; exit 1; }
+
+$(UNO)/model_%.o: $(UNO)/model_%.c | toolchain-uno
 	@avr-gcc $(UNO_FLAGS) -I. -c $< -o $@
 
 $(UNO)/firmware/board/memory.o: UNO_MORE := -fno-tree-loop-distribute-patterns
-$(UNO)/%.o: %.c Makefile firmware/uno/uno.mk | $(BUILD)/need/avr
+$(UNO)/%.o: %.c Makefile firmware/uno/uno.mk | toolchain-uno
 	@mkdir -p $(@D)
 	@echo "  uno $<"; avr-gcc $(UNO_FLAGS) $(UNO_MORE) $(WARN) -MMD -MP -c $< -o $@
 
-$(UNO)/%.o: %.S firmware/uno/uno.mk | $(BUILD)/need/avr
+$(UNO)/%.o: %.S firmware/uno/uno.mk | toolchain-uno
 	@mkdir -p $(@D)
 	@echo "  uno $<"; avr-gcc -mmcu=atmega328p -c $< -o $@
 

@@ -102,13 +102,20 @@ mps2_objects = $(call firmware_linked,$(1)) $(FIRMWARE_MAIN_frames:%.c=$(FIRMWAR
 $(foreach board,blackpill pico2,$(eval $(call mps2_board,$(board),$(call mps2_objects,$(board)))))
 
 # ---- all ----------------------------------------------------------------------------------------------------------------
-.PHONY: emulate-lm3s6965evb emulate-sifive_e test-firmware-checks test-firmware-harness
+.PHONY: emulate-lm3s6965evb emulate-sifive_e test-firmware-checks test-firmware-harness test-firmware-input
 test-firmware-checks: $(BUILD)/need/arm $(BUILD)/need/emulators # that the checks of images find what they look for
 	@$(PYTHON) $(EMULATORS)/test_checks.py $(FIRMWARE)/checks
 test-firmware-harness: $(LM3S)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so $(BUILD)/need/emulators # that the harness tells what goes wrong
 	@$(PYTHON) $(EMULATORS)/test_harness.py $(LM3S)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so $(FIRMWARE)/harness
 
-test-firmware: test-firmware-checks test-firmware-harness $(BOARDS:%=test-firmware-%) ## boards in emulators: frames equal to the simulator's, faults, sizes, stack
+test-firmware-input: $(TUILE) firmware-lm3s6965evb firmware-sifive_e $(BUILD)/need/avr $(BUILD)/need/emulators # that wrong input is told
+	@$(PYTHON) $(EMULATORS)/test_input.py $(BUILD)
+
+test-firmware: test-firmware-checks test-firmware-harness test-firmware-input $(BOARDS:%=test-firmware-%) ## boards in emulators: frames equal to the simulator's, faults, sizes, stack
 
 emulate-%:
-	@echo "There is no board $* in an emulator; there are: $(BOARDS)" >&2; exit 1
+	@$(call no_board,$* in an emulator,$(BOARDS) uno)
+stack-%:
+	@$(call no_board,$* whose stack is bounded,$(BOARDS))
+size-firmware-% test-firmware-%:
+	@$(call no_board,$*,$(BOARDS) uno)

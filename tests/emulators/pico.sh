@@ -45,6 +45,10 @@ breaks() {
     echo "$(basename "$1") $2: $3"
 }
 
+# A program that does not end, as the demo on a board, ends by the limit.
+if emulate "$programs/demo" --quiet --seconds 3 --options tell=1 >"$out/limit.txt" 2>&1; then fail "the demo came to an end"; fi
+grep -q "rp2040: not done after 3 s;.*last told: demo cube zbuffer" "$out/limit.txt" || fail "no end: $(cat "$out/limit.txt")"
+
 # The second stage that the boot ROM would start, and one whose check sum is wrong.
 python3 "$here/../../firmware/pico/boot2.py" check "$programs/frames.bin"
 head -c 300 "$programs/frames.bin" | tr '\000' '\001' >"$out/spoilt.bin"

@@ -65,12 +65,13 @@ class Emulator(unittest.TestCase):
         with open(binary, "rb") as one, open(back, "rb") as other:
             self.assertEqual(one.read(), other.read())
 
-    def test_a_board_that_nobody_answers_stays_where_it_is(self):
+    def test_a_board_that_nobody_answers_has_no_options_and_does_not_end(self):
         with Qemu("lm3s6965evb", IMAGE, "", "cortex-m3", 1.5, semihosting=False) as machine, self.assertRaises(EmulatorError) as raised:
             while machine.line() is not None:
                 pass
             self.fail(f"it ended with {machine.end()}")  # QEMU gives up on a processor that locks up
         self.assertIn("no end within 1.5 s", str(raised.exception))
+        self.assertEqual(machine.last, ["board 128 64", "frame cube zbuffer 0 passes 1"])
 
 
 class Counter(unittest.TestCase):
