@@ -82,6 +82,27 @@ class Input(unittest.TestCase):
                     os.symlink(os.path.join("/usr/bin", name), os.path.join(path, name))
             self.refused(make(f"toolchain-{board}", PATH=path), f"{board}: {compiler} is not there", "PATH")
 
+    def flash_blackpill(self, *tools):
+        """With no other flashing tools than these, which are scripts that say how they are called."""
+        path = tempfile.mkdtemp(dir=FOLDER.name)
+        os.symlink("/usr/bin/grep", os.path.join(path, "grep"))
+        for name, text in tools:
+            with open(os.path.join(path, name), "w", encoding="ascii") as file:
+                file.write(f"#!/bin/sh\n{text}\n")
+            os.chmod(os.path.join(path, name), 0o755)
+        return subprocess.run(["/bin/sh", "firmware/blackpill/flash.sh", "x.elf", "x.bin"], env={"PATH": path}, capture_output=True, text=True, check=False)
+
+    def test_a_black_pill_is_flashed_by_what_there_is(self):
+        found = ("dfu-util", 'case $1 in -l) echo "Found DFU: [0483:df11] alt=0" ;; *) echo "dfu-util $*" ;; esac')
+        none = ("dfu-util", 'case $1 in -l) echo "none" ;; *) exit 1 ;; esac')
+        st_flash, openocd = ("st-flash", 'echo "st-flash $*"'), ("openocd", 'echo "openocd $*"')
+        for tools, wanted in (((found, st_flash), "dfu-util -d 0483:df11 -a 0 -s 0x08000000:leave -D x.bin"), ((none, st_flash, openocd), "st-flash --reset write x.bin 0x08000000"),
+                              ((none, openocd), "openocd -f interface/stlink.cfg -f target/stm32f4x.cfg -c program x.elf verify reset exit")):
+            result = self.flash_blackpill(*tools)
+            self.assertEqual((result.returncode, result.stdout.splitlines()[-1]), (0, wanted))
+        self.refused(self.flash_blackpill(none), "hold BOOT0", "openocd")
+        self.refused(self.flash_blackpill(), "dfu-util", "apt-get install")
+
     def test_models_that_are_none_are_told_as_by_tuile_mesh(self):
         for path, word in ((os.path.join(FOLDER.name, "none.obj"), "No such file"), (put("empty.obj", ""), "is empty"), (FOLDER.name, "is a folder"),
                            (put("text.obj", "This is no model.\n"), "text.obj")):
