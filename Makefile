@@ -67,7 +67,7 @@ endef
 
 .PHONY: golden help all demo test test-asan test-clang check docs-pictures gallery install-udev size size-arm format format-check lint clean
 help: ## this list
-	@grep -hE '^[a-z0-9_-]+:.*##' Makefile tests/linux/linux.mk firmware/firmware.mk tests/emulators/emulators.mk firmware/uno/uno.mk tests/emulators/uno.mk firmware/pico/board.mk firmware/pico2/board.mk firmware/blackpill/board.mk tests/emulators/pico.mk tests/bench/bench.mk tests/predict/predict.mk tests/tsan.mk | sed 's/:.*##/\t/' | expand -t 16
+	@grep -hE '^[a-z0-9_-]+:.*##' Makefile tests/linux/linux.mk firmware/firmware.mk tests/emulators/emulators.mk firmware/uno/uno.mk tests/emulators/uno.mk firmware/pico/board.mk firmware/pico2/board.mk firmware/blackpill/board.mk tests/emulators/pico.mk tests/emulators/blackpill.mk tests/bench/bench.mk tests/predict/predict.mk tests/tsan.mk | sed 's/:.*##/\t/' | expand -t 16
 
 all: $(TUILE) ## build the simulator, build/tuile
 
@@ -208,7 +208,7 @@ objects: $(CORE_OBJ)
 
 include tests/linux/linux.mk
 include firmware/firmware.mk firmware/uno/uno.mk
-include tests/emulators/emulators.mk tests/emulators/pico.mk tests/emulators/uno.mk tests/bench/bench.mk tests/predict/predict.mk tests/tsan.mk
+include tests/emulators/emulators.mk tests/emulators/pico.mk tests/emulators/blackpill.mk tests/emulators/uno.mk tests/bench/bench.mk tests/predict/predict.mk tests/tsan.mk
 
 # ---- figures -------------------------------------------------------------------------------------------------------
 # ---- pictures of docs/methods.md: one view of each method, from the inside of a room and of four beams -----------------

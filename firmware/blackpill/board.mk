@@ -1,4 +1,4 @@
-# Black Pill: STM32F411 with a panel on SPI1. No emulator has the chip: its objects run on another with the same core (firmware/mps2/).
+# Black Pill: STM32F411 with a panel on SPI1, of which a model is in tests/emulators/ (blackpill.c).
 blackpill_TOOLS := arm-none-eabi-
 blackpill_NEED := arm
 blackpill_FLAGS := -mcpu=cortex-m4 -mthumb -mfloat-abi=soft
