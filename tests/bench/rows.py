@@ -104,7 +104,7 @@ class Counter:
         if result.returncode == 3:
             return None
         if result.returncode or not result.stdout:
-            raise BenchError(f"{describe(spec)} could not be counted: {result.stderr.strip() or 'nothing was printed'}")
+            raise BenchError(f"{describe(spec)} could not be counted: {result.stderr.strip() or f'exit code {result.returncode}'}")
         fields = result.stdout.split()
         numbers = dict(zip(fields[::2], map(int, fields[1::2])))
         return {**spec, "unit": "instructions", "faces": numbers["faces"], "passes": numbers["passes"] / numbers["frames"],

@@ -36,6 +36,10 @@ Cortex-M0+ takes 5.06, 6.10 and 10.2 million.
 """
 
 
+def option(name):
+    return OPTIONS[OPTIONS.index(name) + 1]
+
+
 def awk(script, text, *options):
     return subprocess.run(["awk", *options, "-f", os.path.join(HERE, script)], input=text, capture_output=True, text=True, check=True).stdout
 
@@ -204,13 +208,13 @@ class Profiles(unittest.TestCase):
 class Whole(unittest.TestCase):
     """The whole of it, by a budget of one line: a count that is above it fails, as a slowed function would."""
 
-    def run_budget(self, command, count, table=""):
+    def run_budget(self, command, count, table="", more=()):
         paths = [os.path.join(FOLDER, name) for name in ("budget", "README.md")]
         for path, text in zip(paths, (f"# Counted with -.\n{LINE} {count}\n", table)):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
-        result = subprocess.run([sys.executable, os.path.join(HERE, "budget.py"), command, *OPTIONS, "--file", paths[0], "--readme", paths[1]],
-                                capture_output=True, text=True, check=False)
+        result = subprocess.run([sys.executable, os.path.join(HERE, "budget.py"), command, *OPTIONS, *more, "--file", paths[0], "--readme",
+                                 paths[1]], capture_output=True, text=True, check=False)
         with open(paths[0], encoding="utf-8") as file:
             written = file.read()
         return result, written
@@ -232,6 +236,38 @@ class Whole(unittest.TestCase):
         result, _ = self.run_budget("check", 10 ** 9, f"{readme.MARK_BEGIN}\n{readme.MARK_END}\n")
         self.assertEqual(result.returncode, 1)
         self.assertIn("its table is not the budget's", result.stderr)
+
+    def test_a_target_that_draws_another_picture_fails(self):
+        path = os.path.join(FOLDER, "other-bench")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(f"#!/bin/sh\n{option('--bench')} \"$@\" | sed 's/^hash ./hash x/'\n")
+        os.chmod(path, 0o755)
+        result, _ = self.run_budget("check", 10 ** 9, more=("--bench", path))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("cortex-m3 draws another picture than this machine", result.stderr)
+
+    def test_what_cannot_be_counted_fails(self):
+        result, _ = self.run_budget("check", 10 ** 9, more=("--plugin", "/nonexistent.so"))
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stderr, "could not be counted: QEMU has counted nothing:\n.*nonexistent.so")
+
+    def test_both_ways_of_counting_agree(self):
+        """By address, over all frames, and in one sum for each time that the guest draws: all that runs is in the program."""
+        folder = os.path.join(FOLDER, "guest")
+        os.makedirs(folder, exist_ok=True)
+        environment = dict(os.environ, ROOT=".", GUEST=os.path.abspath(option("--guest")), PLUGIN=os.path.abspath(option("--plugin")))
+        subprocess.run(["sh", os.path.join(HERE, "qemu", "run.sh"), folder, "cortex-m3", option("--scene"), "tests/models/room.obj", "64", "48", "64",
+                        "24", "flat", "1048576"], env=environment, check=True, stdout=subprocess.DEVNULL)
+        with open(os.path.join(folder, "lines.txt"), encoding="utf-8") as file:
+            by_address = sum(int(line.split()[0]) for line in file)
+        with open(os.path.join(folder, "symbols.txt"), encoding="utf-8") as file:
+            addresses = {fields[2]: fields[0] for fields in map(str.split, file) if len(fields) == 3}
+        result = subprocess.run(f". {HERE}/qemu/target.sh; target cortex-m3; $qemu -display none -monitor none -serial none -semihosting-config "
+                                f"enable=on,target=native -plugin file=$PLUGIN,from=0x{addresses['guest_from']},to=0x{addresses['guest_to']} "
+                                f"-kernel {folder}/guest.elf", shell=True, env=environment, capture_output=True, text=True, check=True)
+        sums = [int(line.split()[1]) for line in result.stderr.splitlines() if line.startswith("instructions ")]
+        self.assertEqual(len(sums), 8 * 3)  # frames; of each, two tiles and the end
+        self.assertEqual(sum(sums), by_address)
 
     def test_rows_are_written_as_json(self):
         path = os.path.join(FOLDER, "rows.json")

@@ -25,11 +25,14 @@ sh "$here/cc.sh" "$name" -fno-tree-loop-distribute-patterns -nostdlib -nostartfi
 
 "${prefix}nm" "$folder/guest.elf" >"$folder/symbols.txt"
 address() { awk -v name="$1" '$3 == name { print "0x" $1 }' "$folder/symbols.txt"; }
+rm -f "$folder/counts.txt"
 start_at=$(address program_start) end_at=$(address program_end)
 # shellcheck disable=SC2086 # $qemu is words
 timeout 600 $qemu -display none -monitor none -serial none -semihosting-config enable=on,target=native \
     -plugin "file=$PLUGIN,from=$(address guest_from),to=$(address guest_to),base=$start_at,bytes=$((end_at - start_at)),out=$folder/counts.txt" \
-    -kernel "$folder/guest.elf" 2>&1 | grep -v '^qemu-system' || true
+    -kernel "$folder/guest.elf" 2>&1 | tee "$folder/qemu.txt" | grep -v '^qemu-system' || true
+[ -s "$folder/counts.txt" ] || { echo "QEMU has counted nothing:" && cat "$folder/qemu.txt"; } >&2
+[ -s "$folder/counts.txt" ]
 awk '{ print "0x" $1 }' "$folder/counts.txt" | "${prefix}addr2line" -f -i -a -e "$folder/guest.elf" | awk '
     function flush(i, at) {
         if (n == 0) return
