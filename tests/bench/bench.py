@@ -101,9 +101,15 @@ def count_rows(arguments):
         raise BenchError("TARGETS, METHODS, SHADES and TILE have one word at least")
     wanted = wanted_rows(models_of(arguments), arguments.models, [t for t in targets if t not in rows.BOARDS], methods, shades,
                          arguments.size, tiles, rows.bytes_of(arguments.memory))
-    counted = []
+    counted, faults = [], []
+
+    def goes_on(_, error):
+        faults.append(error)
+        print(f"bench: {error}", file=sys.stderr)
+        return True
+
     print(rows.head(), flush=True)
-    for row in counter_of(arguments).all(wanted):
+    for row in counter_of(arguments).all(wanted, goes_on):
         print(rows.line(row), flush=True)
         counted.append(row)
     for target in targets:
@@ -111,6 +117,8 @@ def count_rows(arguments):
             print(rows.line(row), flush=True)
             counted.append(row)
     rows.write_json(counted, os.path.join(arguments.out, "bench.json"))
+    if faults:
+        raise BenchError(f"{len(faults)} of {len(wanted)} rows could not be counted")
 
 
 def sweep(arguments):

@@ -80,6 +80,8 @@ class Pictures(unittest.TestCase):
         self.assertEqual([item.get("fill") for item in bars], [charts.PHASE_COLOURS[p] for p in ("vertex", "setup", "span", "clear", "helpers")])
         for item, share in zip(bars, (0.1, 0.5, 0.3, 0.05, 0.05)):
             self.assertAlmostEqual(float(item.get("width")), share * scale, delta=0.06)
+        for item, share in zip(bars, (0, 0.1, 0.6, 0.9, 0.95)):
+            self.assertAlmostEqual(float(item.get("x")), charts.LEFT + share * scale, delta=0.06)
         self.assertEqual(over(path), [])
 
     def test_a_chart_of_each_kind_for_each_model(self):
@@ -112,12 +114,12 @@ class Pictures(unittest.TestCase):
 
     def test_a_point_stands_at_its_figures(self):
         path = os.path.join(FOLDER, "point.svg")
-        counted = [made_row(rows.HOST, "zbuffer", "flat", total, faces=faces, axis="faces") for faces, total in ((100, 1000000), (1000, 2000000), (10000, 10000000))]
+        counted = [made_row(rows.HOST, "zbuffer", "flat", total, faces=faces, axis="faces") for faces, total in ((100, 1500000), (1000, 2000000), (10000, 10000000))]
         charts.draw_curves(path, "title", "faces", counted)
         points = [(float(item.get("cx")), float(item.get("cy"))) for item in xml.etree.ElementTree.parse(path).getroot().iter(SVG + "circle")]
         left, top, right, bottom = charts.PLOT
         self.assertAlmostEqual(points[1][0], (left + right) / 2, delta=0.06)  # the geometric mean is in the middle
-        self.assertAlmostEqual(points[0][1], bottom, delta=0.06)
+        self.assertAlmostEqual(points[0][1], bottom - 0.17609 * (bottom - top), delta=0.06)  # log 1.5; the axis begins at 1
         self.assertAlmostEqual(points[1][1], bottom - 0.30103 * (bottom - top), delta=0.06)  # log 2
         self.assertAlmostEqual(points[2][1], top, delta=0.06)
 
