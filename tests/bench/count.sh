@@ -8,7 +8,7 @@ count() {
     valgrind --tool=callgrind --callgrind-out-file="$count_out/callgrind.out" --collect-atstart=no --toggle-collect=bench_frame \
         --dump-line=yes "$@" >"$count_out/run.txt" 2>"$count_out/valgrind.txt" || count_code=$?
     grep '^hash ' "$count_out/run.txt" >"$count_out/hash.txt" || true
-    [ $count_code != 1 ] || cat "$count_out/run.txt" "$count_out/valgrind.txt" >&2
+    [ $count_code != 1 ] || { cat "$count_out/run.txt"; grep -v '^==[0-9]*==' "$count_out/valgrind.txt"; } >&2
     return $count_code
 }
 
