@@ -240,6 +240,27 @@ static void each_errno_has_its_code(void **state) {
     }
 }
 
+/* What is not there yet is NOT_FOUND, what was there is GONE; a mode that a controller has not is told when it is asked for. */
+static void opening_and_using_are_told_apart(void **state) {
+    static const struct {
+        int error, opening, open;
+    } cases[] = {
+        {ENODEV, TUILE_HAL_NOT_FOUND, TUILE_HAL_GONE},          {ENXIO, TUILE_HAL_NOT_FOUND, TUILE_HAL_GONE},
+        {ESHUTDOWN, TUILE_HAL_NOT_FOUND, TUILE_HAL_GONE},       {ENOENT, TUILE_HAL_NOT_FOUND, TUILE_HAL_IO},
+        {ENOTDIR, TUILE_HAL_NOT_FOUND, TUILE_HAL_IO},           {ENOTTY, TUILE_HAL_NOT_FOUND, TUILE_HAL_IO},
+        {EINVAL, TUILE_HAL_UNSUPPORTED, TUILE_HAL_IO},          {EACCES, TUILE_HAL_PERMISSION, TUILE_HAL_PERMISSION},
+        {EPERM, TUILE_HAL_PERMISSION, TUILE_HAL_PERMISSION},    {EBUSY, TUILE_HAL_BUSY, TUILE_HAL_BUSY},
+        {ENAMETOOLONG, TUILE_HAL_ARGUMENT, TUILE_HAL_ARGUMENT}, {EMSGSIZE, TUILE_HAL_SIZE, TUILE_HAL_SIZE},
+        {ETIMEDOUT, TUILE_HAL_TIMEOUT, TUILE_HAL_TIMEOUT},      {EIO, TUILE_HAL_IO, TUILE_HAL_IO},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < CHECK_COUNT(cases); i++) {
+        assert_int_equal(tuile_linux_code(cases[i].error, true), cases[i].opening);
+        assert_int_equal(tuile_linux_code(cases[i].error, false), cases[i].open);
+    }
+}
+
 static void a_short_message_is_told(void **state) {
     static const uint8_t bytes[2000] = {0};
     const tuile_linux_config_t config = mock_linux_config();
@@ -284,10 +305,15 @@ static void closing_twice_and_closing_nothing(void **state) {
 
 int main(void) {
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_ioctl_fails_once),         cmocka_unit_test(each_message_is_cut_short_once),
-        cmocka_unit_test(the_device_goes_at_each_ioctl), cmocka_unit_test(opening_fails_at_each_ioctl),
-        cmocka_unit_test(each_errno_has_its_code),       cmocka_unit_test(a_short_message_is_told),
-        cmocka_unit_test(dc_is_not_known_after_a_fault), cmocka_unit_test(closing_twice_and_closing_nothing),
+        cmocka_unit_test(each_ioctl_fails_once),
+        cmocka_unit_test(each_message_is_cut_short_once),
+        cmocka_unit_test(the_device_goes_at_each_ioctl),
+        cmocka_unit_test(opening_fails_at_each_ioctl),
+        cmocka_unit_test(each_errno_has_its_code),
+        cmocka_unit_test(opening_and_using_are_told_apart),
+        cmocka_unit_test(a_short_message_is_told),
+        cmocka_unit_test(dc_is_not_known_after_a_fault),
+        cmocka_unit_test(closing_twice_and_closing_nothing),
     };
     print_message("libgpiod %s, a made-up kernel\n", tuile_linux_gpiod_version());
     return cmocka_run_group_tests_name("faults on spidev", tests, NULL, mock_linux_end);

@@ -90,6 +90,38 @@ static void wait_returns_when_all_is_out(void **state) {
     }
 }
 
+/* A port that is closed at once sends what it was given, also when the thread has not even looked at it. */
+static void closing_sends_what_was_handed_over(void **state) {
+    static uint8_t bytes[4];
+
+    (void)state;
+    for (unsigned round = 0; round < 50; round++) {
+        open_board(false);
+        assert_int_equal(port.bus.data(port.bus.context, bytes, sizeof bytes), 0);
+        tuile_linux_close(&port);
+        assert_int_equal(mock.transfers, 1);
+        close_board();
+    }
+}
+
+/* No thread has room for a stack as large as all addresses. */
+static void a_thread_that_cannot_start_need_not_be_stopped(void **state) {
+    tuile_linux_worker_t worker;
+    pthread_attr_t usual, huge;
+
+    (void)state;
+    assert_int_equal(pthread_getattr_default_np(&usual), 0);
+    assert_int_equal(pthread_attr_init(&huge), 0);
+    assert_int_equal(pthread_attr_setstacksize(&huge, (size_t)1 << 47), 0);
+    assert_int_equal(pthread_setattr_default_np(&huge), 0);
+    assert_int_not_equal(tuile_linux_worker_start(&worker, NULL, NULL), 0);
+    assert_int_equal(pthread_setattr_default_np(&usual), 0);
+    assert_false(worker.running);
+    tuile_linux_worker_stop(&worker);
+    (void)pthread_attr_destroy(&huge);
+    (void)pthread_attr_destroy(&usual);
+}
+
 static void without_it_data_return_when_they_are_out(void **state) {
     static uint8_t bytes[4000];
 
@@ -181,9 +213,13 @@ static void signals_are_left_to_the_others(void **state) {
 
 int main(void) {
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(data_return_while_the_wire_is_busy),       cmocka_unit_test(wait_returns_when_all_is_out),
-        cmocka_unit_test(without_it_data_return_when_they_are_out), cmocka_unit_test(each_buffer_is_sent_once_and_in_order),
+        cmocka_unit_test(data_return_while_the_wire_is_busy),
+        cmocka_unit_test(wait_returns_when_all_is_out),
+        cmocka_unit_test(without_it_data_return_when_they_are_out),
+        cmocka_unit_test(each_buffer_is_sent_once_and_in_order),
         cmocka_unit_test(signals_are_left_to_the_others),
+        cmocka_unit_test(closing_sends_what_was_handed_over),
+        cmocka_unit_test(a_thread_that_cannot_start_need_not_be_stopped),
     };
     print_message("libgpiod %s, a made-up kernel\n", tuile_linux_gpiod_version());
     return cmocka_run_group_tests_name("sending thread", tests, NULL, mock_linux_end);
