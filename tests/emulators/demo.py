@@ -14,11 +14,10 @@ import time
 
 from expected import differ
 from frames import read_wanted
-from picture import read_ppm, reduce
+from picture import read_ppm
 from qemu import EmulatorError, Qemu
 from wire import read_wire
 
-MAGNIFIED = 4  # of QEMU's SSD0323
 PANELS = {"lm3s6965evb": "ssd0323", "sifive_e": "ili9341"}
 # Of the select switch: QEMU's board has it at the key Ctrl (hw/arm/stellaris.c).
 KEY = {"type": "qcode", "data": "ctrl"}
@@ -63,10 +62,8 @@ def finish(qemu, faults):
 
 
 def compare_panel(arguments, qemu, shown):
-    path = os.path.join(qemu.folder.name, "screen.ppm")
-    qemu.screendump(path)
     try:
-        seen = reduce(read_ppm(path), MAGNIFIED)
+        seen = qemu.panel()
     except ValueError as error:
         return [f"{shown.name}: the screen is no magnified picture: {error}"]
     fault = differ(seen, simulated(arguments, shown), shown.name, arguments.out)
@@ -136,9 +133,7 @@ def alone(arguments):
     with Qemu("lm3s6965evb", arguments.image, "", "cortex-m3", arguments.limit, semihosting=False) as qemu:
         for _ in range(2):
             time.sleep(0.7)
-            path = os.path.join(qemu.folder.name, "screen.ppm")
-            qemu.screendump(path)
-            pictures.append(reduce(read_ppm(path), MAGNIFIED))
+            pictures.append(qemu.panel())
     lit = sum(pictures[1].pixel(x, y)[0] == 255 for x in range(128) for y in range(10))
     return ([] if pictures[0] != pictures[1] else ["without a debugger nothing moves"]) + ([] if lit > 60 else ["without a debugger there is no text"])
 

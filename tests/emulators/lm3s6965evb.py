@@ -9,17 +9,8 @@ import sys
 
 from expected import Simulator, differ
 from frames import FAULTS, Frames, read_wanted
-from picture import read_ppm, reduce
 from qemu import EmulatorError, Qemu, counted_frames
 from script import run_script, verdict
-
-MAGNIFIED = 4  # QEMU draws a pixel of the panel as a square of 4 x 4, and a level v of 15 as 17 v
-
-
-def look(qemu, path):
-    """The panel's picture as it is."""
-    qemu.screendump(path)
-    return reduce(read_ppm(path), MAGNIFIED)
 
 
 def run_frames(image, cpu, options, simulator, wanted, count, folder, limit_s):
@@ -32,7 +23,7 @@ def run_frames(image, cpu, options, simulator, wanted, count, folder, limit_s):
                 continue
             scene, method, number = told
             try:
-                seen = look(qemu, os.path.join(qemu.folder.name, "screen.ppm"))
+                seen = qemu.panel()
                 fault = differ(seen, simulator.frames(scene, method, count)[number], f"{cpu}-{scene}-{method}-{number}", folder)
             except ValueError as error:
                 fault = f"{scene} {method} {number}: the screen is no magnified picture: {error}"
@@ -89,7 +80,7 @@ def show(arguments):
                 print(line)
                 continue
             path = os.path.join(arguments.out, "{}-{}-{:02d}.png".format(*told))
-            look(qemu, os.path.join(qemu.folder.name, "screen.ppm")).write(path)
+            qemu.panel().write(path)
             shown += 1
             counted = qemu.counted(shown) if arguments.plugin else None
             print(line + (f" instructions {counted}" if counted else "") + f" {path}")

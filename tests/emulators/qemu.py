@@ -9,10 +9,14 @@ import tempfile
 import threading
 import time
 
+from picture import read_ppm, reduce
+
 # QEMU 7.2 says this when it puts boards together, before the first instruction: the SysTick of the LM3S6965 has no reference clock, and
 # the AN505's core looks for its vectors before the image is in memory.
 HARMLESS = {"Timer with period zero, disabling"} | {
     f"Invalid read at addr 0x1000000{at}, size 4, region '(null)', reason: rejected" for at in (0, 4)}
+
+MAGNIFIED = 4  # QEMU draws a pixel of its SSD0323 as a square of 4 x 4, and a level v of 15 as 17 v
 
 
 class EmulatorError(Exception):
@@ -140,8 +144,11 @@ class Qemu:
             time.sleep(0.01)  # it comes by another pipe
         return None
 
-    def screendump(self, path):
-        self.execute("screendump", filename=os.path.abspath(path))
+    def panel(self):
+        """The picture on the LM3S6965's panel, as it is; ValueError when the screen is no magnified picture."""
+        path = os.path.join(self.folder.name, "screen.ppm")
+        self.execute("screendump", filename=path)
+        return reduce(read_ppm(path), MAGNIFIED)
 
     def end(self):
         """Waits for the end. The exit code, and what the emulator had to complain of: its own lines and its log."""
