@@ -13,6 +13,8 @@
 /* I/O ports (14.4) */
 #define DDRB REGISTER8(0x24) /* 1: output */
 #define PORTB REGISTER8(0x25)
+#define PIND REGISTER8(0x29)
+#define PORTD REGISTER8(0x2B) /* of an input: 1: pulled up */
 
 /* Timer 1 (16.11) */
 #define TIFR1 REGISTER8(0x36)
@@ -21,6 +23,7 @@
 #define TCCR1B REGISTER8(0x81)
 #define TCCR1B_CTC 0x08    /* count to OCR1A and begin again (16.9.2) */
 #define TCCR1B_CLK_64 0x03 /* clock / 64 */
+#define TCCR1B_CLK_1024 0x05
 #define TCNT1 REGISTER16(0x84)
 #define OCR1A REGISTER16(0x88)
 

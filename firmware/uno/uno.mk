@@ -7,7 +7,10 @@ UNO_SRC := $(wildcard firmware/uno/*.c) firmware/board/memory.c hal/display.c ha
 # together save 1 366 bytes of 29 396, and -fno-tree-switch-conversion tables in RAM.
 UNO_FLAGS := -mmcu=atmega328p -std=gnu11 -Os -ffreestanding -fno-ivopts -fno-tree-loop-optimize -fno-move-loop-invariants \
              -fno-inline-small-functions -fno-tree-switch-conversion -mstrict-X -mcall-prologues -ffunction-sections -fdata-sections -fstack-usage
-UNO_OBJ := $(patsubst %.c,$(UNO)/%.o,$(UNO_SRC)) $(UNO)/firmware/uno/start.o $(UNO)/model_cube.o $(UNO)/model_room.o
+# frames is what tests run, demo what is put on a board: each a file with a main.
+UNO_MAIN_frames := $(UNO)/firmware/uno/main.o
+UNO_MAIN_demo := $(UNO)/firmware/uno/demo.o
+UNO_OBJ := $(filter-out $(UNO_MAIN_frames) $(UNO_MAIN_demo),$(patsubst %.c,$(UNO)/%.o,$(UNO_SRC))) $(UNO)/firmware/uno/start.o $(UNO)/model_cube.o $(UNO)/model_room.o
 
 $(BUILD)/need/avr: ; $(call need,gcc-avr binutils-avr,a compiler for AVR)
 
@@ -34,13 +37,21 @@ $(UNO)/%.o: %.S firmware/uno/uno.mk | toolchain-uno
 	@mkdir -p $(@D)
 	@echo "  uno $<"; avr-gcc -mmcu=atmega328p -c $< -o $@
 
-$(UNO)/frames.elf: $(UNO_OBJ) firmware/uno/link.ld
-	@echo "  uno $@"; avr-gcc -mmcu=atmega328p -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings -Wl,--relax -Wl,-Map,$(UNO)/frames.map \
+UNO_ELF := $(FIRMWARE_PROGRAMS:%=$(UNO)/%.elf)
+$(UNO)/frames.elf: $(UNO_MAIN_frames)
+$(UNO)/demo.elf: $(UNO_MAIN_demo)
+$(UNO_ELF): $(UNO_OBJ) firmware/uno/link.ld
+	@echo "  uno $@"; avr-gcc -mmcu=atmega328p -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings -Wl,--relax -Wl,-Map,$(@:.elf=.map) \
 	  -T firmware/uno/link.ld $(filter %.o,$^) -lgcc -o $@
-	@avr-objcopy -O binary $@ $(UNO)/frames.bin
-	@avr-objcopy -O ihex $@ $(UNO)/frames.hex
+	@avr-objcopy -O binary $@ $(@:.elf=.bin)
+	@avr-objcopy -O ihex $@ $(@:.elf=.hex)
 
 .PHONY: firmware-uno
+ifeq ($(FIRMWARE_OWN),)
 firmware: firmware-uno
-firmware-uno: $(UNO)/frames.elf ## the Arduino Uno's program: build/firmware/uno/frames.hex
-	@avr-size $<
+endif
+firmware-uno: $(if $(FIRMWARE_OWN),no-model-uno,$(UNO_ELF)) ## the Arduino Uno's programs: build/firmware/uno/demo.hex
+	@avr-size $^
+.PHONY: no-model-uno
+no-model-uno:
+	@echo "uno: no MODEL=FILE here: a model would be compiled with its views, in less than 3200 bytes of flash and 90 vertices; the full renderer has no room" >&2; exit 1

@@ -108,6 +108,7 @@ class Input(unittest.TestCase):
                            (put("text.obj", "This is no model.\n"), "text.obj")):
             self.refused(make("firmware-lm3s6965evb", f"MODEL={path}"), path, word)
         self.refused(make("firmware-lm3s6965evb", f"MODEL={CUBE}", "MAX_FACES=many"), "--max-faces many")
+        self.refused(make("firmware-uno", f"MODEL={CUBE}"), "uno: no MODEL=FILE")
 
     def test_a_model_too_large_for_the_flash_is_told_in_bytes_with_a_number_of_faces_that_fits(self):
         path = put("large.obj", sphere(120, 100))

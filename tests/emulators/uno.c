@@ -1,6 +1,7 @@
 /* The Uno in simavr, with the model of an SSD1306 at its pins: runs the flashed image and holds each frame against the simulator's.
  *
  * Usage: uno test IMAGE.bin MODELS          every frame of a round, compared; and the stack
+ *        uno demo IMAGE.bin MODELS          the demo: a round, then its button; the rate in the corner by this clock
  *        uno show IMAGE.bin MODELS FOLDER   saves the frames as PNG, tells the cycles of each
  *
  * MODELS: the folder of the compiled models (`make firmware-models`). An error is a line on stderr and ends it with 1.
@@ -17,6 +18,8 @@
 #include <simavr/sim_avr.h>
 #include <simavr/sim_cycle_timers.h>
 
+#include "uno_demo.h"
+
 #include "../../firmware/player.h"
 #include "../../firmware/uno/tell.h"
 #include "../../sim/mesh/mesh.h"
@@ -26,6 +29,7 @@
 #define LIMIT_CYCLES (60u * (uint64_t)CLOCK_HZ) /* of one frame */
 #define STACK_MARGIN 256u                       /* bytes that must be left */
 #define RAM_END 0x8ffu
+#define PAINT 0xa5u /* start.S */
 
 /* Data space (data sheet, section 36). */
 enum {
@@ -41,6 +45,7 @@ enum {
     PRR = 0x64
 };
 enum { PIN_RESET = 0x01, PIN_DC = 0x02, PIN_SELECT = 0x04, PIN_DATA = 0x08, PIN_CLOCK = 0x20 };
+enum { PORTD = 0x2b, DDRD = 0x2a, PIN_BUTTON = 2 }; /* the pin's number */
 enum { SPE = 0x40, DORD = 0x20, MSTR = 0x10, CPOL_CPHA = 0x0c, SPIF = 0x80, PRSPI = 0x04 };
 
 typedef struct uno {
@@ -50,8 +55,9 @@ typedef struct uno {
     sim_error_t error;           /* the first fault */
     uint8_t sent, sent_port;     /* the byte on the wire, and the pins when it set out */
     uint32_t sent_clock_hz;
-    bool sending, ended, reset;
+    bool sending, ended, reset, demo;
     uint64_t begun, last_told; /* cycles */
+    uint64_t took;             /* likewise, the last frame */
     unsigned shown, bytes, stack_unused, stack_low;
     struct {
         target_t target;
@@ -156,7 +162,7 @@ static int expected_open(uno_t *uno, unsigned show) {
     return 0;
 }
 
-static int compare(uno_t *uno, unsigned show, unsigned frame, const sim_picture_t *seen) {
+static int compare(uno_t *uno, unsigned show, unsigned frame, sim_picture_t *seen) {
     sim_picture_t wanted = {0}, difference = {0};
     size_t count = 0, lit = 0;
     const int error = player_frame(&uno->expected[show].player, frame);
@@ -164,6 +170,7 @@ static int compare(uno_t *uno, unsigned show, unsigned frame, const sim_picture_
 
     if (error) { return sim_fail(&uno->error, "the simulator: %s", tuile_stream_error_text(error)); }
     result = target_picture(&uno->expected[show].target, &wanted, NULL, &uno->error) ||
+             (uno->demo && uno_demo_corner(seen, &wanted, uno->took ? 10.0 * CLOCK_HZ / (double)uno->took : 0, &uno->error)) ||
              sim_picture_difference(seen, &wanted, &difference, &count, &uno->error);
     for (size_t i = 0; result == 0 && i < (size_t)wanted.width * wanted.height; i++) {
         lit += wanted.rgb[3 * i] != 0;
@@ -190,9 +197,43 @@ static int save(uno_t *uno, unsigned show, unsigned frame, const sim_picture_t *
     return result ? -1 : 0;
 }
 
+static avr_cycle_count_t button_up(avr_t *avr, avr_cycle_count_t when, void *param) {
+    (void)when;
+    (void)param;
+    avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), PIN_BUTTON), 1);
+    return 0;
+}
+
+static void press(uno_t *uno, unsigned held_ms) {
+    if (!(uno->avr->data[PORTD] >> PIN_BUTTON & 1) || (uno->avr->data[DDRD] >> PIN_BUTTON & 1)) {
+        fault(uno, "the button's pin is not an input that is pulled up");
+    }
+    avr_raise_irq(avr_io_getirq(uno->avr, AVR_IOCTL_IOPORT_GETIRQ('D'), PIN_BUTTON), 0);
+    avr_cycle_timer_register(uno->avr, (avr_cycle_count_t)held_ms * (CLOCK_HZ / 1000u), button_up, uno);
+}
+
+static void shown_by_demo(uno_t *uno, unsigned show, unsigned frame) {
+    const uno_demo_t wanted = uno_demo_at(uno->shown++);
+    sim_picture_t seen = {0};
+
+    if (show != wanted.show || frame != wanted.frame * UNO_STEP) {
+        fault(uno, "another frame or show than time and button ask for");
+    } else if (uno->chip->glass(uno->chip, &seen, &uno->error) == 0) {
+        (void)compare(uno, show, frame, &seen);
+    }
+    sim_picture_free(&seen);
+    uno->took = uno->avr->cycle - uno->begun;
+    if (wanted.press_ms) { press(uno, wanted.press_ms); }
+    uno->ended = wanted.last;
+}
+
 static void shown(uno_t *uno, unsigned show, unsigned frame) {
     sim_picture_t seen = {0};
 
+    if (uno->demo) {
+        shown_by_demo(uno, show, frame);
+        return;
+    }
     if (show >= UNO_SHOWS || frame != uno->shown % UNO_FRAMES * UNO_STEP || show != uno->shown / UNO_FRAMES) {
         fault(uno, "a frame out of turn");
         return;
@@ -266,8 +307,22 @@ static int run(uno_t *uno) {
     return uno->error.text[0] ? -1 : 0;
 }
 
+/* Bytes below the stack that are painted as they were. */
+static unsigned painted(const uno_t *uno) {
+    unsigned count = 0;
+
+    while (uno->avr->data[uno->stack_low - count] == PAINT) {
+        count++;
+    }
+    return count;
+}
+
 static int check_end(uno_t *uno) {
-    if (uno->shown != UNO_SHOWS * UNO_FRAMES) { return sim_fail(&uno->error, "only %u frames were shown", uno->shown); }
+    if (uno->demo) {
+        uno->stack_unused = painted(uno);
+    } else if (uno->shown != UNO_SHOWS * UNO_FRAMES) {
+        return sim_fail(&uno->error, "only %u frames were shown", uno->shown);
+    }
     if (uno->chip->warnings) { return sim_fail(&uno->error, "SSD1306: %s", uno->chip->warning.text); }
     if (uno->stack_unused < STACK_MARGIN) {
         return sim_fail(&uno->error, "%u bytes of stack were never used; %u are to be left", uno->stack_unused, STACK_MARGIN);
@@ -294,27 +349,30 @@ static int work(uno_t *uno, const char *image) {
     if (!(uno->chip = panel->create(&uno->error)) || load(uno, image)) { return -1; }
     take_register(uno, SPDR, byte_written);
     take_register(uno, GPIOR0, told);
+    (void)button_up(uno->avr, 0, uno);
     avr_irq_register_notify(avr_io_getirq(uno->avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 0), reset_moved, uno);
     return run(uno) || check_end(uno) ? -1 : 0;
 }
 
 int main(int count, char **arguments) {
     static uno_t uno;
-    const bool test = count == 4 && strcmp(arguments[1], "test") == 0;
+    const bool demo = count == 4 && strcmp(arguments[1], "demo") == 0,
+               test = demo || (count == 4 && strcmp(arguments[1], "test") == 0);
     int result;
 
     if (!test && (count != 5 || strcmp(arguments[1], "show") != 0)) {
-        (void)fputs("Usage: uno test IMAGE.bin MODELS, or uno show IMAGE.bin MODELS FOLDER\n", stderr);
+        (void)fputs("Usage: uno test|demo IMAGE.bin MODELS, or uno show IMAGE.bin MODELS FOLDER\n", stderr);
         return 2;
     }
     uno.models = arguments[3];
+    uno.demo = demo;
     uno.folder = test ? NULL : arguments[4];
     result = work(&uno, arguments[2]);
     if (result) {
         (void)fprintf(stderr, "uno: %s\n", uno.error.text);
     } else {
-        (void)printf("uno: %u frames%s; %" PRIu64 " cycles; stack down to %#x, %u bytes never used\n", uno.shown,
-                     test ? " are the simulator's, dot by dot" : "", uno.avr->cycle, uno.stack_low, uno.stack_unused);
+        (void)printf("uno%s: %u frames%s; %" PRIu64 " cycles; stack down to %#x, %u bytes never used\n", demo ? " demo" : "",
+                     uno.shown, test ? " are the simulator's, dot by dot" : "", uno.avr->cycle, uno.stack_low, uno.stack_unused);
     }
     close_all(&uno);
     return result ? 1 : 0;

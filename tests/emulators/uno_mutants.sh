@@ -17,7 +17,7 @@ mutant() {
     fi
     # shellcheck disable=SC2086
     avr-gcc $flags -Ifirmware/uno -c "$out/$1.c" -o "$out/$1.o"
-    objects=$(find "$folder" -name '*.o' ! -name spi.o ! -path "$out/*")
+    objects=$(find "$folder" -name '*.o' ! -name spi.o ! -name demo.o ! -path "$out/*")
     # shellcheck disable=SC2086
     avr-gcc -mmcu=atmega328p -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--relax -T firmware/uno/link.ld "$out/$1.o" $objects -lgcc \
         -o "$out/$1.elf"
