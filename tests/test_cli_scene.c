@@ -63,7 +63,8 @@ static void phases_lie_between_frames(void **state) {
     free(next);
 }
 
-/* The corners are black where text may be and white in it; all else is as it was. The font has 6 by 10 dots. */
+/* The corners are black where text may be and white in it, whatever the room shows there; all else is as it was. The font has 6 by
+ * 10 dots. */
 static void captions_lie_in_the_corners(void **state) {
     static const struct {
         const char *options;
@@ -72,13 +73,13 @@ static void captions_lie_in_the_corners(void **state) {
         {"--show-rate 0", 8, 0}, {"--show-rate 12.3", 8, 0}, {"--show-rate 999.9 --show-method", 9, 7}, {"--show-method", 0, 7}};
     sim_picture_t plain;
     (void)state;
-    cli_good_silent("scene cube --models @ --panel ssd0323 --out @/plain.ppm");
+    cli_good_silent("scene room --models @ --panel ssd0323 --out @/plain.ppm");
     assert_int_equal(sim_picture_read(&plain, cli_path("plain.ppm"), NULL), 0);
     for (unsigned i = 0; i < CHECK_COUNT(cases); i++) {
         char line[200];
         sim_picture_t picture;
         unsigned white[2] = {0, 0};
-        (void)snprintf(line, sizeof line, "scene cube --models @ --panel ssd0323 --out @/caption.ppm %s", cases[i].options);
+        (void)snprintf(line, sizeof line, "scene room --models @ --panel ssd0323 --out @/caption.ppm %s", cases[i].options);
         cli_good_silent(line);
         assert_int_equal(sim_picture_read(&picture, cli_path("caption.ppm"), NULL), 0);
         for (unsigned y = 0; y < picture.height; y++) {
