@@ -194,6 +194,17 @@ static void what_cannot_be_drawn_is_left_out(void **state) {
     }
 }
 
+static void what_is_left_out_after_a_press_leaves_the_hand_in_charge(void **state) {
+    tour_t tour;
+    (void)state;
+    tour_begin(&tour, TOUR_EVERY_US, 0);
+    assert_true(tour_frame(&tour, BUTTON_SHORT, SECOND));
+    assert_true(tour_skip(&tour, SECOND));
+    assert_true(shows(&tour, "cube", TUILE_WARNOCK));
+    assert_false(tour_frame(&tour, BUTTON_NOTHING, SECOND + TOUR_BY_HAND_US - 1));
+    assert_true(tour_frame(&tour, BUTTON_NOTHING, SECOND + TOUR_BY_HAND_US));
+}
+
 static void a_rate_is_a_mean_over_half_a_second_of_one_scene(void **state) {
     tour_t tour;
     (void)state;
@@ -226,6 +237,7 @@ int main(void) {
         cmocka_unit_test(time_goes_through_all_pairs_in_order),
         cmocka_unit_test(a_short_press_is_the_next_method_and_a_long_one_the_next_scene),
         cmocka_unit_test(what_cannot_be_drawn_is_left_out),
+        cmocka_unit_test(what_is_left_out_after_a_press_leaves_the_hand_in_charge),
         cmocka_unit_test(a_rate_is_a_mean_over_half_a_second_of_one_scene),
     };
     return cmocka_run_group_tests_name("demo", tests, NULL, NULL);
