@@ -53,6 +53,9 @@ TUILE_INLINE int64_t fixed_floor_div64(int64_t a, int64_t b) {
     return quotient - (a % b < 0);
 }
 
+/* Registers of 64 bits, so that numbers of that size cost no more than shorter ones. */
+#define FIXED_WIDE_REGISTERS (UINTPTR_MAX > UINT32_MAX)
+
 /* Machines that multiply 32 bits by 32 to 32 only (Cortex-M0+) make longer products of halves: a third of what the compiler's
  * functions for any two 64-bit numbers take. */
 #if defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__)
@@ -102,7 +105,7 @@ TUILE_INLINE int64_t fixed_floor_div46_by_words(int64_t a, int32_t b) {
 }
 
 TUILE_INLINE int64_t fixed_floor_div46(int64_t a, int32_t b) {
-    return UINTPTR_MAX > UINT32_MAX ? fixed_floor_div64(a, b) : fixed_floor_div46_by_words(a, b);
+    return FIXED_WIDE_REGISTERS ? fixed_floor_div64(a, b) : fixed_floor_div46_by_words(a, b);
 }
 
 /* floor(a * b / 2^32), |a| <= 2^31: |result| < 2^31. */

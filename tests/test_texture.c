@@ -253,20 +253,41 @@ static double apart(long double a, long double b, double size) {
     return d < size - d ? d : size - d;
 }
 
+/* A map of three corners whose coordinates have uv_bits bits of fraction. */
+static bool map_of(textured_map_t *map, textured_material_t *m, const texture_corner_t c[3]) {
+    const textured_face_t face = {.x1 = c[1].x - c[0].x,
+                                  .y1 = c[1].y - c[0].y,
+                                  .x2 = c[2].x - c[0].x,
+                                  .y2 = c[2].y - c[0].y,
+                                  .depth0 = c[0].depth,
+                                  .depth1 = c[1].depth,
+                                  .depth2 = c[2].depth,
+                                  .s0 = c[0].s,
+                                  .t0 = c[0].t,
+                                  .s1 = c[1].s - c[0].s,
+                                  .t1 = c[1].t - c[0].t,
+                                  .s2 = c[2].s - c[0].s,
+                                  .t2 = c[2].t - c[0].t};
+    return textured_map_at_origin(map, m, &face, c[0].x, c[0].y);
+}
+
+/* In texels of the level that is drawn, with sides of up to 1024 texels, from 1/256 to 128 texels across. */
 static void the_fast_way_addresses_within_half_a_texel(void **state) {
     random_source_t random = random_seed(7);
-    unsigned maps = 0, pixels = 0;
+    const textured_constants_t constants = textured_constants();
+    unsigned maps = 0, pixels = 0, levels_seen = 0;
     double worst = 0;
     (void)state;
     for (unsigned round = 0; round < CHECK_ROUNDS(60000); round++) {
-        const unsigned width = (unsigned)random_between(&random, 1, 8), height = (unsigned)random_between(&random, 1, 8);
-        const unsigned bits = (unsigned)random_between(&random, 0, 8);
+        const unsigned width = (unsigned)random_between(&random, 1, 10), height = (unsigned)random_between(&random, 1, 10);
+        const unsigned uv_bits = (unsigned)random_between(&random, 0, 8);
         const tuile_texture_t texture = {.texels = (const uint8_t *)"",
                                          .width = (uint16_t)(1u << width),
                                          .height = (uint16_t)(1u << height),
-                                         .levels = (uint8_t)random_between(&random, 1, 4)};
-        const tuile_material_t material = {.colour = {255, 255, 255}, .uv_bits = (uint8_t)(8 - bits)};
-        const int32_t size = random_between(&random, 16, 500), span = random_between(&random, 1, 32767 >> bits);
+                                         .levels = (uint8_t)random_between(&random, 1, 8)};
+        const tuile_material_t material = {.colour = {255, 255, 255}};
+        const int32_t size = random_between(&random, 16, 500), most = random_between(&random, 0, 7 + (int32_t)uv_bits),
+                      span = random_between(&random, 1, 1 << most), middle = random_between(&random, span - 32767, 32767 - span);
         const int32_t far = random_between(&random, -1800, 1800) * 16, depth = random_between(&random, 1 << 10, 1 << 23);
         texture_corner_t c[3], exactly[3];
         textured_material_t m;
@@ -274,46 +295,48 @@ static void the_fast_way_addresses_within_half_a_texel(void **state) {
         for (int i = 0; i < 3; i++) {
             c[i] = (texture_corner_t){far + random_between(&random, 0, size), random_between(&random, i ? 1 : 0, i ? size : 0),
                                       (uint32_t)(depth - random_between(&random, 0, depth / 8)),
-                                      random_between(&random, -span, span), random_between(&random, -span, span)};
+                                      middle + random_between(&random, -span, span), middle + random_between(&random, -span, span)};
             exactly[i] = c[i];
-            exactly[i].s = c[i].s * (1 << bits);
-            exactly[i].t = c[i].t * (1 << bits);
+            exactly[i].s = c[i].s * (1 << (8 - uv_bits));
+            exactly[i].t = c[i].t * (1 << (8 - uv_bits));
         }
         if ((c[2].x - c[0].x) * (c[1].y - c[0].y) - (c[1].x - c[0].x) * (c[2].y - c[0].y) <= 0) { continue; }
-        textured_material_open(&m, &material, &texture, 0, true);
-        if (!m.fit || !textured_map(&map, &m, &c[0], &c[1], &c[2], bits)) { continue; }
+        textured_material_open(&m, &material, &texture, 0, true, uv_bits);
+        if (!m.fit || !map_of(&map, &m, c)) { continue; }
+        const unsigned number = m.level.number;
+        const uint32_t w = 1u << (width - number), h = 1u << (height - number);
+        levels_seen |= 1u << number;
         maps++;
-        const double at_level = 1 << m.level.number;
         for (int32_t y = 0; y <= size >> 4; y++) {
             for (int32_t x = far >> 4; x <= (far + size) >> 4; x++) {
                 long double st[2];
                 if (!exact(exactly, x, y, true, st)) { continue; }
-                const uint64_t at = map.v + map.dx * (uint64_t)(int64_t)x + map.dy * (uint64_t)(int64_t)y;
-                const uint32_t w = 1u << m.level.width, h = 1u << (height - m.level.number);
-                const double s = ((uint32_t)at >> 16 & (w - 1)) + ((uint32_t)at & 0xffffu) / 65536.0;
-                const double t = ((uint32_t)(at >> 32) / 65536.0) / w;
+                const uint32_t at = map.v + map.dx * (uint32_t)x + map.dy * (uint32_t)y;
+                const double s = at / m.level.s_unit % (w * 256) / 256.0, t = at / m.level.t_unit / 256.0;
                 const double off =
-                    fmax(apart(s * at_level, st[0], w * at_level), apart(t * at_level, st[1], fmin(h, 65536.0 / w) * at_level));
+                    fmax(apart(s, st[0] / (1 << number), w), apart(t, st[1] / (1 << number), h)); /* texels of the level */
                 if (off > 0.5) { fail_msg("round %u, pixel %d,%d: %f texel off", round, x, y, off); }
-                const uint32_t index = textured_index(at, map.mask);
+                const uint32_t index = textured_index(at, map.mask, map.shift, &constants);
                 assert_true(index < w * h);
-                assert_int_equal(index, (uint32_t)t % h * w + (uint32_t)s);
+                assert_int_equal(index, (uint32_t)t * w + (uint32_t)s);
                 worst = fmax(worst, off);
                 pixels++;
             }
         }
     }
-    print_message("%u faces, %u pixels: at most %.4f texel off\n", maps, pixels, worst);
-    assert_true(maps > CHECK_ROUNDS(60000) / 100 && pixels > CHECK_ROUNDS(60000) / 6);
+    print_message("%u faces, %u pixels, levels %x: at most %.4f texel off\n", maps, pixels, levels_seen, worst);
+    assert_true(maps > CHECK_ROUNDS(60000) / 20 && pixels > CHECK_ROUNDS(60000) / 6 && (levels_seen & 7) == 7);
 }
 
 static void the_fast_way_s_light_is_within_a_step(void **state) {
+    const textured_constants_t constants = textured_constants();
     double worst_five = 0, worst_six = 0;
     (void)state;
     for (uint32_t light = 2; light <= 253; light++) {
         const uint32_t levels = textured_levels(light << 24);
         for (uint32_t k = 0; k < 64; k++) {
-            const uint32_t texel = (k & 31) << 11 | k << 5 | (31 - (k & 31)), lit = textured_lit(texel, levels);
+            const uint32_t texel = (k & 31) << 11 | k << 5 | (31 - (k & 31));
+            const uint16_t lit = textured_lit(texel, levels, &constants, false);
             worst_five = fmax(worst_five, fabs((lit >> 11) - (k & 31) * (light / 255.0)));
             worst_five = fmax(worst_five, fabs((lit & 31) - (31 - (k & 31)) * (light / 255.0)));
             worst_six = fmax(worst_six, fabs((lit >> 5 & 63) - k * (light / 255.0)));
@@ -323,11 +346,31 @@ static void the_fast_way_s_light_is_within_a_step(void **state) {
     assert_true(worst_five <= 1.0 && worst_six <= 1.25);
 }
 
+/* Each channel of each colour at each level, in both orders of bytes, by the form of either size of registers. */
+static void the_fast_way_s_light_is_the_same_on_all_machines(void **state) {
+    const textured_constants_t constants = textured_constants();
+    (void)state;
+    for (uint32_t levels = 0; levels < 64; levels++) {
+        for (uint32_t texel = 0; texel < 0x10000; texel++) {
+            const uint32_t lit = ((texel >> 11) * levels + 32) / 64 << 11 | ((texel >> 5 & 63) * levels + 32) / 64 << 5 |
+                                 ((texel & 31) * levels + 32) / 64;
+            const uint32_t swapped = (lit << 8 | lit >> 8) & 0xffff;
+            if (textured_lit_by_words(texel, levels, &constants, false) != lit ||
+                textured_lit_by_words(texel, levels, &constants, true) != swapped ||
+                textured_lit_by_long_words(texel, levels, &constants, false) != lit ||
+                textured_lit_by_long_words(texel, levels, &constants, true) != swapped) {
+                fail_msg("%04x at %u of 64", texel, levels);
+            }
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(at_every_pixel_the_address_is_within_half_a_texel),
         cmocka_unit_test(the_fast_way_addresses_within_half_a_texel),
         cmocka_unit_test(the_fast_way_s_light_is_within_a_step),
+        cmocka_unit_test(the_fast_way_s_light_is_the_same_on_all_machines),
         cmocka_unit_test(every_format_gives_its_colours),
         cmocka_unit_test(textures_repeat_or_end_at_their_border),
         cmocka_unit_test(a_texel_that_is_the_key_is_not_there),

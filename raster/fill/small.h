@@ -27,6 +27,7 @@ typedef struct small_paint {
     uint16_t value;       /* flat */
     const uint16_t *ramp; /* Gouraud: 64 colours */
     textured_map_t map;   /* textured; v is that of the pixel (row, column) of small_face_t */
+    textured_constants_t constants;
 } small_paint_t;
 
 /* A tile as small triangles see it. */
@@ -117,7 +118,7 @@ TUILE_INLINE small_int_t small_start(small_int_t x) { return x * (1 << 16) + ((1
 typedef struct small_rows {
     small_side_t a, b;       /* left and right, in columns */
     uint64_t at, dx, dy;     /* depth and light in the column, and per pixel right and down: fill/triangle.c */
-    uint64_t map;            /* of the texture, in the column */
+    uint32_t map;            /* of the texture, in the column */
     uint16_t *depth;         /* of the column */
     small_int_t left, right; /* the tile's columns */
 } small_rows_t;
@@ -147,17 +148,19 @@ TUILE_INLINE void small_span_gouraud(uint16_t *depth, const uint16_t *end, ptrdi
 }
 
 TUILE_INLINE void small_span_textured(uint16_t *depth, const uint16_t *end, ptrdiff_t colour, uint64_t shade, uint64_t dx,
-                                      const textured_map_t *map, uint64_t at, bool paletted) {
+                                      const small_paint_t *paint, uint32_t at, bool paletted) {
+    const textured_map_t *map = &paint->map;
+    const uint32_t at_dx = map->dx, mask = map->mask, shift = map->shift;
     do {
         const uint16_t z = (uint16_t)(shade >> 48);
         if (z > *depth) {
-            const uint32_t texel = textured_texel(map->texels, map->palette, textured_index(at, map->mask), paletted);
-            const uint16_t lit = (uint16_t)textured_lit(texel, textured_levels((uint32_t)shade));
+            const uint32_t index = textured_index(at, mask, shift, &paint->constants),
+                           texel = textured_texel(map->texels, map->palette, index, paletted);
             *depth = z;
-            depth[colour] = (uint16_t)(lit >> 8 | lit << 8);
+            depth[colour] = textured_lit(texel, textured_levels_of((uint32_t)shade), &paint->constants, true);
         }
         shade += dx;
-        at += map->dx;
+        at += at_dx;
     } while (++depth != end);
 }
 
@@ -172,11 +175,9 @@ TUILE_INLINE void small_span(const small_rows_t *r, const small_tile_t *tile, sm
     } else if (kind == SMALL_GOURAUD) {
         small_span_gouraud(depth, end, tile->colour, shade, r->dx, paint->ramp);
     } else if (paint->map.palette) {
-        small_span_textured(depth, end, tile->colour, shade, r->dx, &paint->map,
-                            r->map + fixed_mul_signed_part(paint->map.dx, from), true);
+        small_span_textured(depth, end, tile->colour, shade, r->dx, paint, r->map + paint->map.dx * (uint32_t)from, true);
     } else {
-        small_span_textured(depth, end, tile->colour, shade, r->dx, &paint->map,
-                            r->map + fixed_mul_signed_part(paint->map.dx, from), false);
+        small_span_textured(depth, end, tile->colour, shade, r->dx, paint, r->map + paint->map.dx * (uint32_t)from, false);
     }
 }
 
@@ -271,7 +272,10 @@ TUILE_INLINE bool small_fill(const small_face_t *face, const vertex_t *v0, const
     } else if (kind == SMALL_TEXTURED) {
         r.at += (uint64_t)light << 24;
     }
-    if (kind == SMALL_TEXTURED) { r.map = paint->map.v; }
+    if (kind == SMALL_TEXTURED) {
+        r.at += TEXTURED_BIAS;
+        r.map = paint->map.v;
+    }
     r.left = tile->first - face->column;
     r.right = tile->end - face->column;
     r.depth = tile->depth + (tile->origin + row * tile->stride + face->column);

@@ -7,27 +7,23 @@
 
 #include "triangle_set_up.h"
 
-TUILE_INLINE uint64_t map_at(const textured_map_t *map, int32_t x, int32_t y) {
-    return map->v + map->dx * (uint64_t)(int64_t)x + map->dy * (uint64_t)(int64_t)y;
-}
-
-TUILE_INLINE uint16_t ordered(uint32_t colour, bool swap) {
-    const uint16_t value = (uint16_t)colour;
-    return (uint16_t)(swap ? value >> 8 | value << 8 : value);
+TUILE_INLINE uint32_t map_at(const textured_map_t *map, int32_t x, int32_t y) {
+    return map->v + map->dx * (uint32_t)x + map->dy * (uint32_t)y;
 }
 
 /* One row: `depth` is that of its first pixel; samples lie `samples` places of 2 bytes from there. paletted and swap are constants
  * in the loops that most frames are drawn by. */
 TUILE_INLINE void span_textured(const textured_t *textured, uint16_t *depth, ptrdiff_t samples, int32_t count, uint64_t shade,
-                                uint64_t at, bool paletted, bool swap) {
+                                uint32_t at, const textured_constants_t *constants, bool paletted, bool swap) {
     const textured_map_t *map = &textured->map;
-    const uint64_t dx = textured->triangle.dx, at_dx = map->dx, mask = map->mask;
+    const uint64_t dx = textured->triangle.dx;
+    const uint32_t at_dx = map->dx, mask = map->mask, shift = map->shift;
     for (const uint16_t *const end = depth + count; depth != end; depth++) {
         const uint16_t z = (uint16_t)(shade >> 48);
         if (z > *depth) {
-            const uint32_t texel = textured_texel(map->texels, map->palette, textured_index(at, mask), paletted);
+            const uint32_t texel = textured_texel(map->texels, map->palette, textured_index(at, mask, shift, constants), paletted);
             *depth = z;
-            depth[samples] = ordered(textured_lit(texel, textured_levels((uint32_t)shade)), swap);
+            depth[samples] = textured_lit(texel, textured_levels((uint32_t)shade), constants, swap);
         }
         shade += dx;
         at += at_dx;
@@ -38,11 +34,13 @@ TUILE_INLINE void span_textured(const textured_t *textured, uint16_t *depth, ptr
  * would cost. */
 TUILE_INLINE void fill_rows(textured_t *textured, const raster_tile_t *tile, ptrdiff_t samples, bool clamp, bool paletted,
                             bool swap) {
+    const textured_constants_t constants = textured_constants();
     triangle_t *t = &textured->triangle;
     const int32_t end = t->head.row_end < tile->bottom ? t->head.row_end : tile->bottom;
     int32_t row = t->row;
     uint16_t *depth = tile->depth + ((ptrdiff_t)(row - tile->top) * tile->stride_px - tile->left);
-    uint64_t shade = t->shade, at = map_at(&textured->map, 0, row);
+    uint64_t shade = t->shade;
+    uint32_t at = map_at(&textured->map, 0, row);
     for (;;) {
         const int32_t until = t->row_mid < end ? t->row_mid : end;
         short_edge_t a = t->side.brief.a, b = t->side.brief.b;
@@ -53,9 +51,8 @@ TUILE_INLINE void fill_rows(textured_t *textured, const raster_tile_t *tile, ptr
                 to = to < tile->right ? to : tile->right;
             }
             if (to > from) {
-                const uint64_t x = (uint64_t)(int64_t)from;
-                span_textured(textured, depth + from, samples, to - from, shade + t->dx * x, at + textured->map.dx * x, paletted,
-                              swap);
+                span_textured(textured, depth + from, samples, to - from, shade + t->dx * (uint64_t)(int64_t)from,
+                              at + textured->map.dx * (uint32_t)from, &constants, paletted, swap);
             }
             a.x = (int32_t)((uint32_t)a.x + (uint32_t)a.slope); /* may wrap behind the last row */
             b.x = (int32_t)((uint32_t)b.x + (uint32_t)b.slope);
@@ -99,10 +96,12 @@ void textured_fill(textured_t *textured, const raster_tile_t *tile, const textur
 
 void textured_run(const textured_map_t *map, int32_t x, int32_t y, int32_t count, uint32_t light, uint32_t light_dx, bool swap,
                   uint16_t *samples) {
-    uint64_t at = map_at(map, x, y);
+    const textured_constants_t constants = textured_constants();
+    uint32_t at = map_at(map, x, y);
     for (int32_t i = 0; i < count; i++) {
-        const uint32_t texel = textured_texel(map->texels, map->palette, textured_index(at, map->mask), map->palette != NULL);
-        samples[i] = ordered(textured_lit(texel, textured_levels(light)), swap);
+        const uint32_t texel =
+            textured_texel(map->texels, map->palette, textured_index(at, map->mask, map->shift, &constants), map->palette != NULL);
+        samples[i] = textured_lit(texel, textured_levels(light), &constants, swap);
         at += map->dx;
         light += light_dx;
     }

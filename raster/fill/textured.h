@@ -1,6 +1,11 @@
 /* The fast way of a texture: small triangles of a mesh, RGB565 texels, or bytes that number such colours, into RGB565 samples; the
- * nearest texel, affine coordinates, white light. Both coordinates are in one 64-bit number that one addition steps: t above, s
- * below, each as the part of a texel's place in memory that it decides, so that they repeat by themselves.
+ * nearest texel, affine coordinates, white light.
+ *
+ * Both coordinates are in one 32-bit number that one addition steps. From the top down: t's whole texels modulo the height, 8 bits
+ * of its fraction, those of s modulo the width, 8 bits of fraction, bits that are 0. So they repeat by themselves; what s carries
+ * into t is 1/256 texel each time that it passes the texture's side. A mask leaves the whole texels; moved up by the 8 bits of
+ * fraction those of s stand right below those of t, t's own fall out above, and what is left below is shifted out. With sides of up
+ * to 256 texels.
  *
  * Light: 64 levels. A colour is texel * m / 64, rounded, with m = round(light / 4), light 2 ... 253 of 255: within one step of the
  * exact product (0.71 for red and blue, 0.95 for green, which has 64).
@@ -10,12 +15,14 @@
 
 #include "triangle.h"
 
-/* v + x dx + y dy at the centre of pixel (x, y), modulo 2^64: above t times the width, below s, both in texels of the level,
- * Q16.16. */
+/* Bits of fraction of a coordinate. */
+#define TEXTURED_FRACTION 8
+
+/* v + x dx + y dy at the centre of pixel (x, y), modulo 2^32. */
 typedef struct textured_map {
-    uint64_t v, dx, dy;
-    uint64_t mask;           /* what of them tells the texel: (height - 1) * width << 48 | (width - 1) << 16 */
-    const void *texels;      /* of the level, at most 65536: uint16_t, or uint8_t if there is a palette */
+    uint32_t v, dx, dy;
+    uint32_t mask, shift;    /* of the whole texels; from them to an index */
+    const void *texels;      /* of the level: uint16_t, or uint8_t if there is a palette */
     const uint16_t *palette; /* NULL: none */
 } textured_map_t;
 
@@ -24,23 +31,84 @@ typedef struct textured {
     textured_map_t map;
 } textured_t;
 
-TUILE_INLINE uint64_t textured_pack(int64_t t, int64_t s) { return ((uint64_t)t << 32) + (uint64_t)s; }
+/* Constants of the loops over pixels. A compiler that knew them would make most of them anew for each pixel, in more than one
+ * instruction; this one finds them in registers or on the stack. */
+typedef struct textured_constants {
+    uint32_t fold, green, round_red_blue, round_green;
+    uint64_t spread, fields, round, lit_fields, gather;
+} textured_constants_t;
+
+#if defined(__GNUC__)
+#define TEXTURED_UNKNOWN(x) __asm__("" : "+r"(x))
+#else
+#define TEXTURED_UNKNOWN(x) ((void)0)
+#endif
+
+TUILE_INLINE textured_constants_t textured_constants(void) {
+    textured_constants_t c = {.fold = 1u << TEXTURED_FRACTION | 1u,
+                              .green = 0x7e0,
+                              .round_red_blue = 0x10020,
+                              .round_green = 0x400,
+                              .spread = UINT64_C(1) << 32 | 1u,
+                              .fields = UINT64_C(0x7e0) << 32 | 0xf81f,
+                              .round = UINT64_C(0x400) << 32 | 0x10020,
+                              .lit_fields = UINT64_C(0x7e0) << 38 | UINT32_C(0xf81f) << 6,
+                              .gather = UINT64_C(1) << 42 | 1u << 10};
+    if (FIXED_WIDE_REGISTERS) {
+        TEXTURED_UNKNOWN(c.fold);
+        TEXTURED_UNKNOWN(c.spread);
+        TEXTURED_UNKNOWN(c.fields);
+        TEXTURED_UNKNOWN(c.round);
+        TEXTURED_UNKNOWN(c.lit_fields);
+        TEXTURED_UNKNOWN(c.gather);
+    } else {
+        TEXTURED_UNKNOWN(c.round_red_blue);
+        TEXTURED_UNKNOWN(c.round_green);
+        if (FIXED_BY_HALVES) {
+            TEXTURED_UNKNOWN(c.fold);
+            TEXTURED_UNKNOWN(c.green);
+        }
+    }
+    return c;
+}
 
 /* Where a texel lies: its index. */
-TUILE_INLINE uint32_t textured_index(uint64_t at, uint64_t mask) {
-    const uint64_t inside = at & mask;
-    return ((uint32_t)(inside >> 32) | (uint32_t)inside) >> 16; /* of each half the upper 16 bits */
+TUILE_INLINE uint32_t textured_index(uint32_t at, uint32_t mask, uint32_t shift, const textured_constants_t *c) {
+    const uint32_t whole = at & mask;
+    return (FIXED_WIDE_REGISTERS || FIXED_BY_HALVES ? whole * c->fold : whole + (whole << TEXTURED_FRACTION)) >> shift;
 }
 
-/* light: Q8.24, below 254. */
-TUILE_INLINE uint32_t textured_levels(uint32_t light) { return (light + 0x2000000u) >> 26; }
+/* light: Q8.24, below 254. biased: with TEXTURED_BIAS added to it. */
+#define TEXTURED_BIAS 0x2000000u
+TUILE_INLINE uint32_t textured_levels_of(uint32_t biased) { return biased >> 26; }
+TUILE_INLINE uint32_t textured_levels(uint32_t light) { return textured_levels_of(light + TEXTURED_BIAS); }
 
-TUILE_INLINE uint32_t textured_lit(uint32_t texel, uint32_t levels) {
-    const uint32_t red_blue = (texel & 0xf81fu) * levels + 0x10020u, green = (texel & 0x07e0u) * levels + 0x400u;
-    return (red_blue >> 6 & 0xf81fu) | (green >> 6 & 0x07e0u);
+TUILE_INLINE uint16_t textured_swapped(uint16_t sample) { return (uint16_t)(sample >> 8 | sample << 8); }
+
+/* Red and blue in one product, green in another. */
+TUILE_INLINE uint16_t textured_lit_by_words(uint32_t texel, uint32_t levels, const textured_constants_t *c, bool swap) {
+    const uint32_t green = texel & c->green, red_blue = texel - green;
+    const uint32_t a = red_blue * levels + c->round_red_blue, b = green * levels + c->round_green;
+    const uint16_t sample = (uint16_t)((a ^ ((a ^ b) & 0x1f800u)) >> 6);
+    return swap ? textured_swapped(sample) : sample;
 }
 
-/* A texel of the map at a place, lit. */
+/* All in one of 64 bits, green 32 above; a last product brings the fields together in the upper 16. */
+TUILE_INLINE uint16_t textured_lit_by_long_words(uint32_t texel, uint32_t levels, const textured_constants_t *c, bool swap) {
+    const uint64_t fields = ((texel * c->spread) & c->fields) * levels + c->round;
+    const uint64_t above = (fields & c->lit_fields) * c->gather;
+#if defined(__GNUC__)
+    if (swap) { return (uint16_t)__builtin_bswap64(above); }
+#endif
+    return swap ? textured_swapped((uint16_t)(above >> 48)) : (uint16_t)(above >> 48);
+}
+
+/* swap: high byte first. */
+TUILE_INLINE uint16_t textured_lit(uint32_t texel, uint32_t levels, const textured_constants_t *c, bool swap) {
+    return FIXED_WIDE_REGISTERS ? textured_lit_by_long_words(texel, levels, c, swap)
+                                : textured_lit_by_words(texel, levels, c, swap);
+}
+
 TUILE_INLINE uint32_t textured_texel(const void *texels, const uint16_t *palette, uint32_t index, bool paletted) {
     return paletted ? palette[((const uint8_t *)texels)[index]] : ((const uint16_t *)texels)[index];
 }

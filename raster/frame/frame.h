@@ -209,29 +209,29 @@ typedef struct tuile {
     transform_t transform;
     const tuile_instance_t *instance;
     uint8_t sides;          /* SIDE_...: which sides of faces are wanted */
+    bool numbered;          /* some face of the tile was drawn as a number */
+    bool columned;          /* small triangles are in lists by column (visibility/columns.h) */
+    bool small;             /* all triangles of the pass have short sides (fill/edge.h) and touch no column outside of its region */
     uint32_t face_base;     /* id of the first face of the instance */
     uint16_t material_base; /* of the instance's model, where materials are counted, else 0 */
     uint16_t instance_number;
     uint16_t source; /* of the faces that are being binned */
     /* Textured faces may be drawn at once: the method has depth, samples are RGB565, and there is no fog. */
     bool textured;
-    bool textured_any;        /* some face of the frame was */
-    uint16_t textured_source; /* what was asked for last: a source of vertices, UINT16_MAX: none; and a material */
-    uint16_t textured_instance, textured_number;
-    bool textured_fits;
+    bool textured_any;                           /* some face of the frame was */
+    uint16_t textured_instance, textured_number; /* the material that was asked for last */
+    uint32_t textured_source; /* a source of vertices, and a material << 16, whose faces may be, or a bit tells that they may not;
+                                 UINT16_MAX: none */
     textured_material_t textured_last;
-    const int16_t *textured_texcoords;
-    bool numbered; /* some face of the tile was drawn as a number */
-    bool columned; /* small triangles are in lists by column (visibility/columns.h) */
-    bool small;    /* all triangles of the pass have short sides (fill/edge.h) and touch no column outside of its region */
+    const uint8_t *textured_texcoords; /* of slot 0 */
     raster_tile_t tile;
     span_kind_t span_kind;
     /* The row of tiles that is being drawn. */
     uint16_t row;                 /* whose buckets and states are current */
-    bool row_ready;               /* several columns: all faces of the row are in the stream or in `uncarried` */
-    uint8_t *stream, *stream_end; /* states */
     uint16_t uncarried;           /* list of records that must be set up in each row */
+    bool row_ready;               /* several columns: all faces of the row are in the stream or in `uncarried` */
     uint32_t next_tile;           /* in row-major order */
+    uint8_t *stream, *stream_end; /* states */
 } tuile_state_t;
 _Static_assert(sizeof(tuile_state_t) <= TUILE_STATE_BYTES, "TUILE_STATE_BYTES");
 

@@ -17,21 +17,26 @@ static void material_open(tuile_t *t, const tuile_instance_t *instance, uint16_t
     t->textured_last.fit = m.texture < model->texture_count && model->texcoords != NULL && model->colours == NULL;
     if (!t->textured_last.fit) { return; }
     const tuile_texture_t texture = tuile_model_texture(model, m.texture);
-    textured_material_open(&t->textured_last, &m, &texture, t->config.texturing, t->camera.projection == TUILE_PERSPECTIVE);
+    textured_material_open(&t->textured_last, &m, &texture, t->config.texturing, t->camera.projection == TUILE_PERSPECTIVE,
+                           m.uv_bits);
 }
 
-/* Another source of vertices, or another material of it. */
-TUILE_NOINLINE void textured_source_open(tuile_t *t, const record_t *record, uint16_t at) {
+#define REFUSED (UINT32_C(1) << 31)
+
+TUILE_NOINLINE bool textured_source_open(tuile_t *t, const record_t *record, uint32_t wanted) {
+    const uint32_t at = wanted & 0xffffu;
+    if (t->textured_source == (wanted | REFUSED)) { return false; }
     const source_slot_t *source = (const source_slot_t *)(const void *)&t->vertices[at];
     const tuile_instance_t *instance = &t->scene->instances[source->instance];
     if (t->textured_instance != source->instance || t->textured_number != record->material) {
         material_open(t, instance, source->instance, record->material);
     }
-    t->textured_source = at;
-    t->textured_fits = t->textured_last.fit && source->colours == 0 && source->attributes == 0;
-    if (!t->textured_fits) { return; }
-    t->textured_texcoords = (const int16_t *)(const void *)instance->model->texcoords +
-                            2 * ((ptrdiff_t)source->first_vertex - at - (ptrdiff_t)SOURCE_SLOTS);
+    t->textured_source = wanted | REFUSED;
+    if (!t->textured_last.fit || source->colours != 0 || source->attributes != 0) { return false; }
+    t->textured_source = wanted;
+    t->textured_texcoords =
+        instance->model->texcoords + 4 * ((ptrdiff_t)source->first_vertex - (ptrdiff_t)at - (ptrdiff_t)SOURCE_SLOTS);
+    return true;
 }
 
 bool textured_start(tuile_t *t, textured_t *textured, const record_t *record, int32_t row) {
@@ -47,7 +52,8 @@ bool textured_start(tuile_t *t, textured_t *textured, const record_t *record, in
         triangle->shade += (uint64_t)record->light << 24;
     }
     if (TUILE_UNLIKELY(!triangle->is_short)) { return false; }
-    if (!textured_face(t, &textured->map, record, 8 - v0->x, 8 - v0->y)) { return false; }
+    const textured_face_t face = textured_face(t, v0, v1, v2, v1->x - v0->x, v1->y - v0->y, v2->x - v0->x, v2->y - v0->y);
+    if (!textured_map_at_origin(&textured->map, &t->textured_last, &face, v0->x, v0->y)) { return false; }
     triangle->value = 0;
     triangle->head.size_bytes = (sizeof(textured_t) + 7u) & ~7u;
     t->textured_any = true;

@@ -4,29 +4,33 @@
 
 #include "frame.h"
 
-/* Another source of vertices, or another material of it. */
-void textured_source_open(tuile_t *t, const record_t *record, uint16_t at);
+/* Another source of vertices, or another material of it: wanted, as textured_source. False: its faces may not be drawn so. */
+bool textured_source_open(tuile_t *t, const record_t *record, uint32_t wanted);
 
 /* Whether faces of the record's material and source may be; t->textured_last and t->textured_texcoords are then of them. */
 TUILE_INLINE bool textured_fits(tuile_t *t, const record_t *record) {
-    const uint16_t source = ((const record_surface_t *)(const void *)record)->source;
-    if (TUILE_UNLIKELY(t->textured_source != source || t->textured_number != record->material)) {
-        textured_source_open(t, record, source);
-    }
-    return t->textured_fits;
+    const uint32_t wanted = ((const record_surface_t *)(const void *)record)->source | (uint32_t)record->material << 16;
+    return TUILE_LIKELY(t->textured_source == wanted) || textured_source_open(t, record, wanted);
 }
 
-TUILE_INLINE texture_corner_t textured_corner(const vertex_t *vertex, const int16_t *texcoords) {
-    return (texture_corner_t){vertex->x, vertex->y, vertex->depth_light >> 8, texcoords[0], texcoords[1]};
-}
-
-/* The map of a record's triangle that has short sides, where textured_fits: surface/textured.h. */
-TUILE_INLINE bool textured_face(tuile_t *t, textured_map_t *map, const record_t *record, int_fast32_t to_x, int_fast32_t to_y) {
-    const vertex_t *v0 = &t->vertices[record->v0];
-    const int16_t *texcoords = t->textured_texcoords + 2 * (ptrdiff_t)record->v0;
-    const texture_corner_t a = textured_corner(v0, texcoords), b = textured_corner(v0 + record->d1, texcoords + 2 * record->d1),
-                           c = textured_corner(v0 + record->d2, texcoords + 2 * record->d2);
-    return textured_map_at(map, &t->textured_last, &a, &b, &c, 8u - t->textured_last.uv_bits, to_x, to_y);
+/* The triangle with short sides of a record, where textured_fits: surface/textured.h. x1 ... y2: from the first corner. */
+TUILE_INLINE textured_face_t textured_face(const tuile_t *t, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t x1,
+                                           int32_t y1, int32_t x2, int32_t y2) {
+    const int16_t *c0 = (const int16_t *)(const void *)t->textured_texcoords + 2 * (v0 - t->vertices), *c1 = c0 + 2 * (v1 - v0),
+                  *c2 = c0 + 2 * (v2 - v0);
+    return (textured_face_t){.x1 = x1,
+                             .y1 = y1,
+                             .x2 = x2,
+                             .y2 = y2,
+                             .depth0 = v0->depth_light >> 8,
+                             .depth1 = v1->depth_light >> 8,
+                             .depth2 = v2->depth_light >> 8,
+                             .s0 = c0[0],
+                             .t0 = c0[1],
+                             .s1 = c1[0] - c0[0],
+                             .t1 = c1[1] - c0[1],
+                             .s2 = c2[0] - c0[0],
+                             .t2 = c2[1] - c0[1]};
 }
 
 #endif

@@ -125,16 +125,45 @@ static void fill_textured(const surface_t *surface, int32_t x, int32_t y, int32_
                  surface->kind == PIXEL_RGB565_BE, samples);
 }
 
-static bool textured_open(surface_t *surface, const surface_face_t *face, const texture_corner_t corner[3], int32_t alike) {
-    const vertex_t *v0 = &face->corner[0].at, *v1 = &face->corner[1].at, *v2 = &face->corner[2].at;
+static bool textured_open(surface_t *surface, const surface_face_t *face, int32_t alike) {
+    const surface_corner_t *corner = face->corner;
+    const vertex_t *v0 = &corner[0].at, *v1 = &corner[1].at, *v2 = &corner[2].at;
     const uint8_t *flat = face->flat_light;
     if ((face->flat && (flat[0] != flat[1] || flat[0] != flat[2])) || !face->triangle || face->coloured || face->tinted ||
         surface->kind > PIXEL_RGB565_LE || !triangle_sides_short(v0, v1, v2)) {
         return false;
     }
     textured_material_t material;
-    textured_material_open(&material, &face->material, &face->texture, face->texturing, face->perspective);
-    if (!material.fit || !textured_map(&surface->map, &material, &corner[0], &corner[1], &corner[2], 0)) { return false; }
+    const unsigned uv_bits = face->material.uv_bits;
+    unsigned down = 8;
+    textured_material_open(&material, &face->material, &face->texture, face->texturing, face->perspective, uv_bits);
+    if (!material.fit) { return false; }
+    int32_t s[3], t[3], any = 0;
+    for (unsigned i = 0; i < 3; i++) {
+        any |= corner[i].attributes.s | corner[i].attributes.t;
+    }
+    if (any & 255) { /* made by clipping: no coordinates of the model, which are whole; 8 bits of fraction are enough */
+        down = uv_bits;
+        textured_material_open(&material, &face->material, &face->texture, face->texturing, face->perspective, 8);
+    }
+    for (unsigned i = 0; i < 3; i++) {
+        s[i] = corner[i].attributes.s >> down;
+        t[i] = corner[i].attributes.t >> down;
+    }
+    const textured_face_t at = {.x1 = v1->x - v0->x,
+                                .y1 = v1->y - v0->y,
+                                .x2 = v2->x - v0->x,
+                                .y2 = v2->y - v0->y,
+                                .depth0 = v0->depth_light >> 8,
+                                .depth1 = v1->depth_light >> 8,
+                                .depth2 = v2->depth_light >> 8,
+                                .s0 = s[0],
+                                .t0 = t[0],
+                                .s1 = s[1] - s[0],
+                                .t1 = t[1] - t[0],
+                                .s2 = s[2] - s[0],
+                                .t2 = t[2] - t[0]};
+    if (!textured_map_at_origin(&surface->map, &material, &at, v0->x, v0->y)) { return false; }
     if (alike < 0) {
         white_light(surface, v0, v1, v2);
     } else {
@@ -198,7 +227,7 @@ void surface_make(surface_t *surface, const surface_face_t *face, pixel_kind_t k
     for (unsigned i = 0; textured && i < 3; i++) {
         corner[i] = texture_corner(&face->corner[i], face->material.uv_bits);
     }
-    if (textured && !coloured && !fogged && textured_open(surface, face, corner, alike)) { return; }
+    if (textured && !coloured && !fogged && textured_open(surface, face, alike)) { return; }
     surface->argb = (uint32_t)face->material.alpha << 24 | rgb_lit(colour, alike >= 0 ? (uint32_t)alike : 255u);
     *stage++ = textured ? stage_texture : stage_same;
     if (textured) {

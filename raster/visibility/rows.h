@@ -215,7 +215,8 @@ TUILE_INLINE state_t *walk_next(tuile_t *t, walk_t *walk, state_t *local, int32_
 
 /* The paint of a record's face, whose ramp is that of the material. False: it cannot be drawn so. */
 TUILE_INLINE bool small_prepare(tuile_t *t, const record_t *record, uint32_t number, small_kind_t kind, bool smooth,
-                                const small_face_t *face, small_paint_t *paint) {
+                                const small_face_t *face, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
+                                small_paint_t *paint) {
     if (kind == SMALL_FLAT) {
         const uint32_t kept = paint->ramp ? paint->ramp[record->light] : 0;
         paint->value = (uint16_t)(TUILE_LIKELY(kept) ? kept : frame_value(t, record, number));
@@ -225,7 +226,13 @@ TUILE_INLINE bool small_prepare(tuile_t *t, const record_t *record, uint32_t num
             (!smooth && (extra->green != record->light || extra->blue != record->light))) {
             return false;
         }
-        return textured_face(t, &paint->map, record, face->to_x, face->to_y);
+        const small_corners_t *c = &face->corners;
+        const textured_face_t textured =
+            textured_face(t, v0, v1, v2, (int32_t)c->x1, (int32_t)c->y1, (int32_t)c->x2, (int32_t)c->y2);
+        if (!textured_map_make(&paint->map, &t->textured_last, &textured, (int32_t)face->to_x, (int32_t)face->to_y & 15)) {
+            return false;
+        }
+        paint->map.v += paint->map.dy * (uint32_t)(face->to_y >> 4);
     }
     return true;
 }
@@ -246,6 +253,7 @@ TUILE_INLINE void smalls_draw(tuile_t *t, walk_t *walk, uint32_t limit, small_ki
     uint32_t count = 0;
     int32_t material = -1;
     if (kind == SMALL_TEXTURED) {
+        paint.constants = textured_constants();
         tile.colour = (t->working ? (uint16_t *)t->working : (uint16_t *)(void *)t->colours[t->next_buffer]) - tile.depth;
     }
     while ((uint32_t)list - 1u < limit) { /* RECORD_NONE is not */
@@ -259,7 +267,7 @@ TUILE_INLINE void smalls_draw(tuile_t *t, walk_t *walk, uint32_t limit, small_ki
             material = record->material;
             paint.ramp = kind == SMALL_GOURAUD ? frame_ramp(t, record->material) : frame_flat_ramp(t, record->material);
         }
-        if (!small_prepare(t, record, number, kind, smooth, &face, &paint)) { break; }
+        if (!small_prepare(t, record, number, kind, smooth, &face, v0, v1, v2, &paint)) { break; }
         const bool reaches = small_fill(&face, v0, v1, v2, &tile, kind, smooth, record->light, &paint);
         list = record->next;
         count++;
@@ -286,7 +294,8 @@ void smalls_textured(tuile_t *t, walk_t *walk, uint32_t limit);
 
 TUILE_INLINE void walk_smalls(tuile_t *t, walk_t *walk, uint32_t limit, unsigned tested) {
     if (tested == ROWS_TEXTURED) {
-        smalls_textured(t, walk, limit);
+        const uint32_t number = walk->list - (uint32_t)1;
+        if (number < limit && textured_fits(t, frame_record(t, number))) { smalls_textured(t, walk, limit); }
     } else {
         smalls_plain(t, walk, limit);
     }
