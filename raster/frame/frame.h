@@ -209,7 +209,7 @@ typedef struct tuile {
     transform_t transform;
     const tuile_instance_t *instance;
     uint8_t sides;          /* SIDE_...: which sides of faces are wanted */
-    bool numbered;          /* some face of the tile was drawn as a number */
+    bool numbered;          /* some face of the tile is drawn as a number: they were cleared */
     bool columned;          /* small triangles are in lists by column (visibility/columns.h) */
     bool small;             /* all triangles of the pass have short sides (fill/edge.h) and touch no column outside of its region */
     uint32_t face_base;     /* id of the first face of the instance */
@@ -395,8 +395,10 @@ bool textured_start(tuile_t *t, textured_t *textured, const record_t *record, in
 /* Builds without it have none of its code. */
 TUILE_INLINE bool frame_deferred(const tuile_t *t) { return TUILE_HAS(SURFACES) && t->numbers != NULL; }
 
-/* A tile of background, and no face seen in it yet. */
+/* A tile of background, and no face seen in it yet. Its numbers, where faces are drawn with their texture at once, are left to the
+ * first face that is not: shade_open. */
 void shade_clear(tuile_t *t);
+void shade_open(tuile_t *t);
 
 /* The faces that are seen in the tile into its samples. */
 void shade_tile(tuile_t *t);

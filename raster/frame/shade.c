@@ -17,12 +17,17 @@
 /* Layers want the depth of what is seen; the z-buffer has it. */
 static bool shade_keeps_depth(const tuile_t *t) { return frame_layers(t) && t->layer_depth != t->tile_memory; }
 
+TUILE_NOINLINE void shade_open(tuile_t *t) {
+    frame_fill_words(t->numbers, 0, (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top) * sizeof(uint16_t));
+    t->numbered = true;
+}
+
 void shade_clear(tuile_t *t) {
     const size_t samples = (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top);
     uint8_t *to = t->working ? t->working : t->colours[t->next_buffer];
     const bool wide = pixel_bytes((pixel_kind_t)t->pixel_kind) == 4;
-    frame_fill_words(t->numbers, 0, samples * sizeof(uint16_t));
-    t->numbered = !t->textured;
+    t->numbered = false;
+    if (!t->textured) { shade_open(t); }
     if (shade_keeps_depth(t)) { frame_fill_words(t->layer_depth, 0, samples * sizeof(uint16_t)); }
     frame_fill_words(to, wide ? t->background : t->background * 0x10001u, samples * (wide ? 4 : 2));
 }
@@ -258,5 +263,6 @@ void shade_tile(tuile_t *t) {
 
 void shade_now(tuile_t *t, uint32_t number) {
     t->method->draw_now(t, number);
+    if (!t->numbered) { return; }
     shade_record(t, number, t->tile.top);
 }

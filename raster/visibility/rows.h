@@ -84,7 +84,7 @@ TUILE_INLINE bool state_fill(tuile_t *t, state_t *state, const record_t *record,
             textured_fill(&state->textured, &t->tile, &to);
             return triangle->row < triangle->head.row_end;
         }
-        if (tested == ROWS_TEXTURED) { t->numbered = true; }
+        if (tested == ROWS_TEXTURED && !t->numbered) { shade_open(t); }
         const uint16_t *ramp = t->span_kind == SPAN_GOURAUD ? frame_ramp(t, triangle->value) : NULL;
         if (tested) {
             triangle_fill(triangle, &t->tile, t->span_kind, last, ramp);
@@ -94,7 +94,7 @@ TUILE_INLINE bool state_fill(tuile_t *t, state_t *state, const record_t *record,
         return triangle->row < triangle->head.row_end;
     }
     if (!tested && record->d2 != 0) { return piece_fill(t, state, record); }
-    if (tested == ROWS_TEXTURED) { t->numbered = true; }
+    if (tested == ROWS_TEXTURED && !t->numbered) { shade_open(t); }
     const polygon_ring_t ring = frame_record_ring(t, record);
     const span_kind_t kind = t->span_kind == SPAN_IDS ? SPAN_IDS : SPAN_FLAT;
     if (tested) {
