@@ -9,6 +9,7 @@
 #include "support/random.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <linux/spi/spidev.h>
 
 static mock_linux_t mock; /* cleared by open_board */
@@ -174,6 +175,33 @@ static void bufsiz_too_small_for_a_pixel(void **state) {
 }
 
 /* The parameter may have been written to since the module was loaded. */
+/* A parameter that tells nothing is taken for spidev's usual one. */
+static void bufsiz_that_is_no_number(void **state) {
+    static const char *const texts[] = {"", "none\n", "0\n"};
+
+    (void)state;
+    for (size_t i = 0; i < CHECK_COUNT(texts); i++) {
+        mock = (mock_linux_t){.bufsiz_text = texts[i]};
+        mock_linux_open(&mock, "ili9341");
+        assert_int_equal(tuile_linux_spi_bufsiz(), 4096);
+        close_board();
+    }
+}
+
+/* Programs that this one starts do not hold the bus, and looking whether it is there holds nothing. */
+static void descriptors_are_neither_inherited_nor_left(void **state) {
+    const tuile_linux_config_t config = mock_linux_config();
+    tuile_linux_fault_t fault;
+
+    (void)state;
+    open_board("ili9341", 0, &config);
+    assert_true(fcntl(port.spi.fd, F_GETFD) & FD_CLOEXEC);
+    tuile_linux_close(&port);
+    assert_int_equal(tuile_linux_spi_probe(config.spi, &fault), 0);
+    assert_int_equal(mock_linux_descriptors(&mock), 0);
+    close_board();
+}
+
 static void message_larger_than_the_kernel_takes(void **state) {
     static const uint8_t bytes[4000] = {0};
     const tuile_linux_config_t config = mock_linux_config();
@@ -336,6 +364,8 @@ int main(void) {
         cmocka_unit_test(every_panel_shows_what_the_simulator_shows),
         cmocka_unit_test(data_are_cut_to_bufsiz),
         cmocka_unit_test(bufsiz_too_small_for_a_pixel),
+        cmocka_unit_test(bufsiz_that_is_no_number),
+        cmocka_unit_test(descriptors_are_neither_inherited_nor_left),
         cmocka_unit_test(message_larger_than_the_kernel_takes),
         cmocka_unit_test(commands_are_slow_and_pixels_fast),
         cmocka_unit_test(flags_of_the_device_tree_stay),

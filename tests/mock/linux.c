@@ -383,14 +383,14 @@ int mock_linux_end(void **state) {
     return 0;
 }
 
-static void put_bufsiz(uint32_t bufsiz) {
+static void put_bufsiz(uint32_t bufsiz, const char *other) {
     char *sys = umockdev_testbed_get_sys_dir(bed), *folder = g_strconcat(sys, "/module/spidev/parameters", NULL);
     char *path = g_strconcat(folder, "/bufsiz", NULL), text[16];
 
     (void)snprintf(text, sizeof text, "%u\n", bufsiz);
     (void)unlink(path);
     assert_int_equal(g_mkdir_with_parents(folder, 0755), 0);
-    if (bufsiz) { assert_true(g_file_set_contents(path, text, -1, NULL)); }
+    if (bufsiz || other) { assert_true(g_file_set_contents(path, other ? other : text, -1, NULL)); }
     g_free(path);
     g_free(folder);
     g_free(sys);
@@ -420,7 +420,7 @@ void mock_linux_open(mock_linux_t *mock, const char *panel) {
     assert_non_null(mock->chip);
     if (!bed) { make_nodes(); }
     mock->bed = bed;
-    put_bufsiz(mock->bufsiz);
+    put_bufsiz(mock->bufsiz, mock->bufsiz_text);
     mock->level[MOCK_RESET] = true; /* pulled up on the module */
     mock->own_descriptors = count_terminals();
 }

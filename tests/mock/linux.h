@@ -35,13 +35,14 @@ typedef struct mock_request {
 
 typedef struct mock_linux {
     /* Zero = default. Set before mock_linux_open. */
-    uint32_t bufsiz;      /* 0: the parameter cannot be read, and it is 4096 */
-    uint32_t real_bufsiz; /* what messages are held against; 0: bufsiz */
-    const uint8_t *reply; /* bytes that a read gets, as they are on the wire; NULL: the chip's answer */
-    uint32_t mode;        /* SPI mode and flags; in the end as the port has set them */
-    bool wire_time;       /* a message takes as long as its bits do */
-    bool real_time;       /* the board's clock is the real one, for ports whose pauses are real */
-    uint32_t late_us;     /* and this much more */
+    uint32_t bufsiz;         /* 0: the parameter cannot be read, and it is 4096 */
+    const char *bufsiz_text; /* in the place of the number; NULL: none */
+    uint32_t real_bufsiz;    /* what messages are held against; 0: bufsiz */
+    const uint8_t *reply;    /* bytes that a read gets, as they are on the wire; NULL: the chip's answer */
+    uint32_t mode;           /* SPI mode and flags; in the end as the port has set them */
+    bool wire_time;          /* a message takes as long as its bits do */
+    bool real_time;          /* the board's clock is the real one, for ports whose pauses are real */
+    uint32_t late_us;        /* and this much more */
 
     UMockdevTestbed *bed;
     sim_chip_t *chip;
