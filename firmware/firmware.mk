@@ -141,7 +141,7 @@ toolchain-$(1): $(BUILD)/need/$($(1)_NEED)
 endef
 $(foreach board,$(BOARDS),$(eval $(call firmware_board,$(board))))
 
-firmware: ## every board's programs: elf, bin and hex in build/firmware/BOARD
+firmware: ## every board's programs: elf, bin and hex in build/firmware/BOARD; firmware-BOARD one's, with MODEL=my.obj MAX_FACES=N a model of your own
 no_board = echo "There is no board $(1); there are: $(2)" >&2; exit 1
 firmware-%:
 	@$(call no_board,$*,$(BOARDS) uno)
