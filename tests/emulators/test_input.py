@@ -129,6 +129,7 @@ class Input(unittest.TestCase):
 
     def test_another_model_is_built_anew_and_without_one_the_scenes_are_back(self):
         elf, own = (f"{BUILD}/firmware/lm3s6965evb{kind}/demo.elf" for kind in ("", "-model"))
+        self.assertEqual(make("firmware-lm3s6965evb").returncode, 0)
         before, seen = digest(elf), []
         for model in (CUBE, BEAMS, CUBE):
             self.assertEqual(make("firmware-lm3s6965evb", f"MODEL={model}").returncode, 0)
