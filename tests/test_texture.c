@@ -2,7 +2,7 @@
 #include "support/check.h"
 #include "support/random.h"
 
-#include "../raster/surface/textured.h"
+#include "../raster/surface/surface.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -300,6 +300,12 @@ static void the_fast_way_addresses_within_half_a_texel(void **state) {
             exactly[i].s = c[i].s * (1 << (8 - uv_bits));
             exactly[i].t = c[i].t * (1 << (8 - uv_bits));
         }
+        if (round % 4 == 0) { /* slivers that end at the centre of a pixel */
+            c[1].x = exactly[1].x = (c[1].x & -16) + 8;
+            c[1].y = exactly[1].y = (c[1].y & -16) + 8;
+            c[2].x = exactly[2].x = c[1].x + random_between(&random, -2, 2);
+            c[2].y = exactly[2].y = c[1].y + random_between(&random, -2, 2);
+        }
         if ((c[2].x - c[0].x) * (c[1].y - c[0].y) - (c[1].x - c[0].x) * (c[2].y - c[0].y) <= 0) { continue; }
         textured_material_open(&m, &material, &texture, 0, true, uv_bits);
         if (!m.fit || !map_of(&map, &m, c)) { continue; }
@@ -307,6 +313,12 @@ static void the_fast_way_addresses_within_half_a_texel(void **state) {
         const uint32_t w = 1u << (width - number), h = 1u << (height - number);
         levels_seen |= 1u << number;
         maps++;
+        /* A step of s is the exact one, rounded to 1/256 texel; the reciprocal of the area is 2^-13 of itself off at most. */
+        const double area = (c[2].x - c[0].x) * (c[1].y - c[0].y) - (c[1].x - c[0].x) * (c[2].y - c[0].y);
+        const double turned = (c[2].s - c[0].s) * (c[1].y - c[0].y) - (c[1].s - c[0].s) * (c[2].y - c[0].y);
+        const double step = turned / area * 16 * 256 / (1 << (uv_bits + number));
+        const double rounded = apart(map.dx / m.level.s_unit % (w * 256), step, w * 256);
+        if (rounded > 0.51 + fabs(step) / 8192) { fail_msg("round %u: a step is %f / 256 texel off", round, rounded); }
         for (int32_t y = 0; y <= size >> 4; y++) {
             for (int32_t x = far >> 4; x <= (far + size) >> 4; x++) {
                 long double st[2];
@@ -326,6 +338,49 @@ static void the_fast_way_addresses_within_half_a_texel(void **state) {
     }
     print_message("%u faces, %u pixels, levels %x: at most %.4f texel off\n", maps, pixels, levels_seen, worst);
     assert_true(maps > CHECK_ROUNDS(60000) / 20 && pixels > CHECK_ROUNDS(60000) / 6 && (levels_seen & 7) == 7);
+}
+
+/* Twice the area is one (1/16 pixel)^2, and the second corner the centre of pixel (30, 31): 120 texels across, a prestep would pass
+ * 2^31; with an eighth of that it does not. */
+static void slivers_of_many_texels_take_another_way(void **state) {
+    const tuile_texture_t texture = {.texels = (const uint8_t *)"", .width = 256, .height = 256, .levels = 1};
+    const tuile_material_t material = {.colour = {255, 255, 255}};
+    texture_corner_t c[3] = {{9, 8, 1 << 20, 0, 0}, {488, 504, 1 << 20, 60 * 256, 0}, {319, 329, 1 << 20, -60 * 256, 0}};
+    textured_material_t m;
+    textured_map_t map;
+    (void)state;
+    textured_material_open(&m, &material, &texture, 0, true, 8);
+    assert_true(m.fit && !map_of(&map, &m, c));
+    c[1].s /= 8;
+    c[2].s /= 8;
+    assert_true(map_of(&map, &m, c));
+    const uint32_t at = map.v + map.dx * 30 + map.dy * 31;
+    assert_true(apart(at / m.level.s_unit % 65536 / 256.0, 7.5, 256) <= 0.5);
+}
+
+/* What clipping makes lies between the coordinates that a model can have: half a texel, where these have no fraction. */
+static void corners_made_by_clipping_keep_their_fraction(void **state) {
+    static const uint16_t texels[64 * 64];
+    surface_face_t face = {
+        .corner = {{.at = {8, 8, UINT32_C(1) << 28 | 100}},
+                   {.at = {8, 264, UINT32_C(1) << 28 | 100}},
+                   {.at = {264, 8, UINT32_C(1) << 28 | 100}}},
+        .material = {.colour = {255, 255, 255}, .alpha = 255},
+        .texture = {.texels = (const uint8_t *)texels, .width = 64, .height = 64, .levels = 1, .format = TUILE_TEXEL_RGB565},
+        .triangle = true,
+        .perspective = true,
+        .whole = true};
+    surface_t surface;
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        face.corner[i].attributes.s = 10 * 256 + 128 + (i == 2 ? 16 * 256 : 0);
+        face.corner[i].attributes.t = 20 * 256 + 128 + (i == 1 ? 16 * 256 : 0);
+    }
+    surface_make(&surface, &face, PIXEL_RGB565_BE);
+    assert_true(surface.map.mask != 0 && surface.fill != surface_fill_stages);
+    const uint32_t at = surface.map.v; /* of pixel (0, 0), the first corner; from the top 6 and 8 bits of t, as many of s, 4 */
+    assert_int_equal(at >> 18, 20 * 256 + 128);
+    assert_int_equal(at >> 4 & 0x3fff, 10 * 256 + 128);
 }
 
 static void the_fast_way_s_light_is_within_a_step(void **state) {
@@ -369,6 +424,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(at_every_pixel_the_address_is_within_half_a_texel),
         cmocka_unit_test(the_fast_way_addresses_within_half_a_texel),
+        cmocka_unit_test(slivers_of_many_texels_take_another_way),
+        cmocka_unit_test(corners_made_by_clipping_keep_their_fraction),
         cmocka_unit_test(the_fast_way_s_light_is_within_a_step),
         cmocka_unit_test(the_fast_way_s_light_is_the_same_on_all_machines),
         cmocka_unit_test(every_format_gives_its_colours),
