@@ -44,7 +44,7 @@ bool predict_leaves_out(const predict_costs_t *costs, const tuile_config_t *conf
     } parts[] = {
         {config->overlay != NULL, "overlay"},
         {!plain_format, compact ? "pixels that are not black and white" : "pixels that are not RGB565"},
-        {config->dither, "dithering"},
+        {config->dither && !compact, "dithering"}, /* black and white is always dithered */
         {config->aa != TUILE_AA_NONE, "anti-aliasing"},
         {(config->effects & TUILE_LAYERS) != 0, "layers"},
     };

@@ -73,7 +73,7 @@ static void what_nobody_counted_is_said(void **state) {
     assert_string_equal(text, "overlay, pixels that are not RGB565, dithering, anti-aliasing, layers");
     assert_true(predict_leaves_out(&costs, &config, text, 12)); /* cut short, not beyond */
     assert_string_equal(text, "overlay, pi");
-    config = (tuile_config_t){.format = TUILE_MONO_PAGES};
+    config = (tuile_config_t){.format = TUILE_MONO_PAGES, .dither = true};
     assert_false(predict_leaves_out(&compact, &config, text, sizeof text));
     assert_true(predict_leaves_out(&costs, &config, text, sizeof text));
     config.format = TUILE_RGB565_BE;
@@ -230,6 +230,47 @@ static void drawing_hides_behind_the_wire_or_the_wire_behind_drawing(void **stat
     assert_int_equal(send_three(5000000, false, false, 1000), 15000000 + 26400 + 9000 + 1000 + 3840000);
 }
 
+static void work_is_on_the_clock_before_anything_is_done(void **state) {
+    (void)state;
+    static const uint8_t window[] = {0x2c}, bytes[2];
+    uint64_t left = 0, begun;
+    board_t board;
+    board_open(&board, &(sim_bus_config_t){.clock_hz = 10000000, .command_clock_hz = 10000000});
+    assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+    sim_bus_listen(&board.bus, take_work, &left);
+    begun = board.bus.now_ns;
+    left = 1000;
+    assert_int_equal(board.bus.bus.command(&board.bus, window, 1, 1), 0);
+    assert_int_equal(board.bus.now_ns - begun, 1000 + 800);
+    left = 2000;
+    assert_int_equal(board.bus.bus.data(&board.bus, bytes, 2), 0);
+    assert_int_equal(board.bus.now_ns - begun, 3000 + 800);
+    left = 600; /* of 1600 that the data take */
+    assert_int_equal(board.bus.bus.wait(&board.bus), 0);
+    assert_int_equal(board.bus.now_ns - begun, 3000 + 800 + 1600);
+    left = 5000;
+    assert_int_equal(board.bus.bus.delay_ms(&board.bus, 1), 0);
+    assert_int_equal(board.bus.now_ns - begun, 8000 + 800 + 1600 + 1000000);
+    board_close(&board);
+}
+
+static void a_frame_begins_with_nothing(void **state) {
+    (void)state;
+    predict_t predict = {.lead_ns = 7, .render_sum_ns = 11, .events = {{1, 2, 3}}, .meter = {.seen = {{4}}, .in_frame = true}};
+    sim_bus_t bus = {.now_ns = 5};
+    predict_frame_begin(&predict, &bus);
+    assert_int_equal(predict.lead_ns, 0);
+    assert_int_equal(predict.started_ns, 5);
+    assert_int_equal(predict.render_sum_ns, 11);
+    assert_int_equal(predict.events.count[0] + predict.events.count[1] + predict.events.count[2] + predict.meter.seen.count[0], 0);
+    bus = (sim_bus_t){.now_ns = 105, .counts = {.work_ns = 60, .wire_ns = 30, .gap_ns = 20}};
+    predict_frame_end(&predict, &bus);
+    assert_int_equal(predict.render_ns, 60);
+    assert_int_equal(predict.wire_ns, 50);
+    assert_int_equal(predict.frame_ns, 100);
+    assert_int_equal(predict.render_sum_ns, 71);
+}
+
 /* ---- as a user meets it --------------------------------------------------------------------------------------------- */
 
 /* Figures of the first frame of a report. */
@@ -300,6 +341,25 @@ static void with_one_buffer_drawing_and_sending_add_up(void **state) {
     const figures_t one = figures_of(line), two = figures_of(scene);
     assert_true(one.frame == one.render + one.wire);
     assert_true(two.render == one.render && two.wire == one.wire && two.frame < one.frame);
+    /* An Uno's core feeds the wire itself, however many buffers there are. */
+    const figures_t uno = figures_of("@/cube.obj --panel ssd1306-128x64 --mcu atmega328p --method tree --tile 128x8");
+    assert_true(uno.render > 0 && uno.wire > 0 && uno.frame == uno.render + uno.wire);
+}
+
+/* The first frame of an update is sent whole, and all its bytes are summed. */
+static void sums_of_an_update_are_drawing(void **state) {
+    (void)state;
+    const char *scene = "@/torus.obj --panel ili9341 --mcu rp2040 --tile 240x16";
+    char line[256];
+    (void)snprintf(line, sizeof line, "%s --update 16", scene);
+    char *without = report_of(scene), *with = report_of(line);
+    const double more = number_after(with, "\"instructions\": ") - number_after(without, "\"instructions\": ");
+    const predict_costs_t *costs = predict_costs_find(sim_mcu_find("rp2040"), &(tuile_config_t){0});
+    assert_non_null(costs);
+    assert_true(fabs(more - 153600.0 * costs->milli[PREDICT_BYTE_SUMMED] / 1000.0) <= 1.0);
+    assert_true(costs->milli[PREDICT_BYTE_SUMMED] > 0);
+    free(without);
+    free(with);
 }
 
 /* Drawing before the first pixels go out has no wire to hide behind, and the last tile's pixels no drawing. Where every tile is
@@ -364,8 +424,11 @@ int main(void) {
         cmocka_unit_test(every_core_and_shading_has_costs),
         cmocka_unit_test(events_come_with_the_tile_that_they_happen_in),
         cmocka_unit_test(drawing_hides_behind_the_wire_or_the_wire_behind_drawing),
+        cmocka_unit_test(work_is_on_the_clock_before_anything_is_done),
+        cmocka_unit_test(a_frame_begins_with_nothing),
         cmocka_unit_test(a_report_says_what_binds_and_by_how_much),
         cmocka_unit_test(with_one_buffer_drawing_and_sending_add_up),
+        cmocka_unit_test(sums_of_an_update_are_drawing),
         cmocka_unit_test(a_frame_takes_three_hundredths_over_the_longer_where_tiles_are_alike),
         cmocka_unit_test(bad_values_are_told),
     };

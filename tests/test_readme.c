@@ -62,6 +62,13 @@ static void the_commands_of_troubleshooting_work(void **state) {
     assert_true(commands_run > 0);
 }
 
+static void the_commands_of_predict_work(void **state) {
+    (void)state;
+    commands_run = 0;
+    assert_int_equal(page_blocks("docs/predict.md", "sh", run_lines), 1);
+    assert_int_equal(commands_run, 3);
+}
+
 static void compile_block(char *block) {
     command_result_t result;
     cli_put("readme.c", block);
@@ -82,9 +89,8 @@ static void the_code_of_porting_compiles(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_commands_of_the_readme_work),
-        cmocka_unit_test(the_code_of_the_readme_compiles),
-        cmocka_unit_test(the_commands_of_troubleshooting_work),
+        cmocka_unit_test(the_commands_of_the_readme_work),      cmocka_unit_test(the_code_of_the_readme_compiles),
+        cmocka_unit_test(the_commands_of_troubleshooting_work), cmocka_unit_test(the_commands_of_predict_work),
         cmocka_unit_test(the_code_of_porting_compiles),
     };
     return cmocka_run_group_tests_name("readme", tests, cli_set_up, cli_tear_down);
