@@ -199,6 +199,7 @@ static void descriptors_are_neither_inherited_nor_left(void **state) {
     tuile_linux_close(&port);
     assert_int_equal(tuile_linux_spi_probe(config.spi, &fault), 0);
     assert_int_equal(mock_linux_descriptors(&mock), 0);
+    assert_int_equal(tuile_linux_spi_probe("/dev/null", &fault), TUILE_HAL_NOT_FOUND); /* it is there, but no bus */
     close_board();
 }
 
