@@ -5,16 +5,19 @@ $(OBJ)/predict_events: $(OBJ)/tests/predict/events.o $(OBJ)/tests/bench/turntabl
 
 PREDICT_CORES := cortex-m0plus cortex-m4 rv32imac
 PREDICT = $(PYTHON) tests/predict/costs.py $(1) $(BENCH_COMMON) --events $(OBJ)/predict_events
-PREDICT_NEEDS := $(OBJ)/predict_events $(call bench_needs,spider bunny sphere house,$(PREDICT_CORES))
+PREDICT_NEEDS := $(OBJ)/predict_events $(call bench_needs,spider bunny sphere house)
 
 .PHONY: predict-costs predict-costs-uno predict-check predict-check-pico predict-check-uno predict-cycles
 predict-costs: $(PREDICT_NEEDS) ## counts frames by QEMU and writes sim/predict_costs.c, what predictions of pace are made from
+	@$(call make_guests,$(PREDICT_CORES))
 	@$(call PREDICT,fit)
 
 predict-check: $(PREDICT_NEEDS) predict-check-pico predict-check-uno ## the same table held against frames that it was not fitted to, and against the emulated Pico's and Uno's
+	@$(call make_guests,$(PREDICT_CORES))
 	@$(call PREDICT,check)
 
 predict-cycles: $(PREDICT_NEEDS) ## cycles of counted instructions by the cores' reference manuals, for sim/mcu.c
+	@$(call make_guests,$(PREDICT_CORES))
 	@$(call PREDICT,cycles)
 
 predict-check-pico: $(TUILE) $(pico_FOLDER)/frames.elf firmware-models $(RP2040JS)
