@@ -51,7 +51,7 @@ typedef struct textured_face {
 bool textured_affine(const textured_material_t *m, const textured_face_t *f);
 
 /* |x| or |x| - 1. */
-TUILE_INLINE uint32_t textured_size(int32_t x) { return (uint32_t)(x ^ (x >> 31)); }
+TUILE_INLINE uint32_t textured_size(int32_t x) { return (uint32_t)(x ^ -(int32_t)(x < 0)); }
 
 /* How a determinant becomes a step: it is multiplied by a * 2^up / 2^32 and rounded, a half up. Where registers are long, 2^up is
  * in the factor. */
