@@ -9,16 +9,13 @@
 #define DIVIDE_TABLE 512
 extern const uint32_t divide_table[DIVIDE_TABLE];
 
-/* floor(dx * 2^20 / dy), |dx| < 512, 0 < dy < 512.
- * With R = floor(2^20 / dy) and p = 2^20 - R dy < dy it is dx R + floor(dx p / dy). |dx p| < 512 dy, so its product with the
- * table's number is below 2^31, and the quotient from that 1 too small at most. */
+/* dx * 2^20 / dy, less than 1.25 too small or 0.25 too large; |dx| < 512, 0 < dy < 512. The table's number is less than 1 too
+ * small, so its product with dx is less than 2^9 off, which is 1/4 behind the shift by 11; the product is made of the number's
+ * halves, and rounded down once. */
 TUILE_INLINE int32_t divide_side_by_table(int32_t dx, int32_t dy) {
-    const uint32_t size = (uint32_t)(dx < 0 ? -dx : dx), down = (uint32_t)dy, inverse = divide_table[dy], whole = inverse >> 2;
-    const uint32_t part = size * ((UINT32_C(1) << 20) - whole * down);
-    uint32_t quotient = (part * inverse) >> 22, rest = part - quotient * down;
-    if (rest >= down) { quotient++, rest -= down; }
-    quotient += size * whole;
-    return dx < 0 ? -(int32_t)(quotient + (rest != 0)) : (int32_t)quotient;
+    const uint32_t inverse = divide_table[dy];
+    const int32_t high = (int32_t)(inverse >> 16) * dx, low = (int32_t)(inverse & 0xffffu) * dx; /* < 2^24, < 2^25 */
+    return high * 32 + (low >> 11);
 }
 
 /* quotient and rest of n by d, when they are off by little. */
@@ -32,20 +29,15 @@ TUILE_INLINE uint32_t divide_settle(uint32_t quotient, int32_t rest, int32_t d) 
     return quotient;
 }
 
-/* floor((2^31 - 1) / area), 0 < area < 2^18. Below 512 the table's number has 9 bits to go: the rest is below 512 area. Else it is
- * that of the upper 9 bits of area, off by 2^-8 of itself, and two corrections by the rest leave a few units. */
+/* floor((2^31 - 1) / area), 0 < area < 2^18. Below 512 it is the table's number, or one less for powers of two. Else that of the
+ * upper 9 bits of area is off by 2^-8 of itself, and two corrections by the rest leave a few units. */
 TUILE_INLINE int32_t divide_area_by_table(int32_t area) {
-    if (area < DIVIDE_TABLE) {
-        const uint32_t inverse = divide_table[area];
-        const int32_t rest = (int32_t)((uint32_t)INT32_MAX - (inverse << 9) * (uint32_t)area);
-        const uint32_t more = ((uint32_t)rest * inverse) >> 22;
-        return (int32_t)divide_settle((inverse << 9) + more, rest - (int32_t)more * area, area);
-    }
+    if (area < DIVIDE_TABLE) { return (int32_t)(divide_table[area] - ((area & (area - 1)) == 0)); }
     unsigned shift = 0;
     while (area >> shift >= DIVIDE_TABLE) {
         shift++;
     }
-    const int32_t inverse = (int32_t)divide_table[area >> shift]; /* <= 2^14 */
+    const int32_t inverse = (int32_t)(divide_table[area >> shift] >> 9); /* <= 2^14 */
     int32_t quotient = (inverse << 9) >> shift;
     int32_t rest = (int32_t)((uint32_t)INT32_MAX - (uint32_t)quotient * (uint32_t)area); /* |rest| < 2^24 */
     int32_t more = ((rest >> 8) * inverse) >> (14 + shift);
@@ -57,14 +49,15 @@ TUILE_INLINE int32_t divide_area_by_table(int32_t area) {
 
 /* floor((2^32 - 1) / d), 2^15 <= d < 2^16. */
 TUILE_INLINE uint32_t divide_ones_by_table(uint32_t d) {
-    const int32_t inverse = (int32_t)divide_table[d >> 7]; /* 2^13 ... 2^14 */
+    const int32_t inverse = (int32_t)(divide_table[d >> 7] >> 9); /* 2^13 ... 2^14 */
     const uint32_t quotient = (uint32_t)inverse << 3;
     const int32_t rest = (int32_t)(UINT32_MAX - quotient * d), more = ((rest >> 8) * inverse) >> 21; /* |rest| < 2^25 */
     return divide_settle(quotient + (uint32_t)more, rest - more * (int32_t)d, (int32_t)d);
 }
 
+/* dx * 2^20 / dy, less than 1.25 too small or 1 too large. */
 TUILE_INLINE int32_t divide_side(int32_t dx, int32_t dy) {
-    return FIXED_BY_HALVES ? divide_side_by_table(dx, dy) : fixed_floor_div(dx * (INT32_C(1) << 20), dy);
+    return FIXED_BY_HALVES ? divide_side_by_table(dx, dy) : dx * (INT32_C(1) << 20) / dy;
 }
 
 TUILE_INLINE int32_t divide_area(int32_t area) { return FIXED_BY_HALVES ? divide_area_by_table(area) : INT32_MAX / area; }

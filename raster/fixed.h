@@ -12,11 +12,13 @@ _Static_assert((-1 >> 1) == -1, "signed shifts to the right must be arithmetic")
 #if defined(__GNUC__)
 #define TUILE_INLINE static inline __attribute__((always_inline))
 #define TUILE_NOINLINE __attribute__((noinline))
+#define TUILE_SELDOM static __attribute__((noinline, unused)) /* of a header, too long to be in line */
 #define TUILE_LIKELY(x) __builtin_expect(!!(x), 1)
 #define TUILE_UNLIKELY(x) __builtin_expect(!!(x), 0)
 #else
 #define TUILE_INLINE static inline
 #define TUILE_NOINLINE
+#define TUILE_SELDOM static inline
 #define TUILE_LIKELY(x) (x)
 #define TUILE_UNLIKELY(x) (x)
 #endif
@@ -53,25 +55,38 @@ TUILE_INLINE int64_t fixed_floor_div64(int64_t a, int64_t b) {
     return quotient - (a % b < 0);
 }
 
-/* Registers of 64 bits, so that numbers of that size cost no more than shorter ones. */
+/* Registers of 64 bits, so that numbers of that size cost no more than shorter ones. A test may say otherwise, here and below. */
+#ifndef FIXED_WIDE_REGISTERS
 #define FIXED_WIDE_REGISTERS (UINTPTR_MAX > UINT32_MAX)
+#endif
 
 /* Machines that multiply 32 bits by 32 to 32 only (Cortex-M0+) make longer products of halves: a third of what the compiler's
  * functions for any two 64-bit numbers take. */
+#ifndef FIXED_BY_HALVES
 #if defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__)
 #define FIXED_BY_HALVES 1
 #else
 #define FIXED_BY_HALVES 0
 #endif
+#endif
+
+/* The lower half. By a register of its own where it counts, since gcc 12 makes two shifts of it before a product otherwise. */
+TUILE_INLINE uint32_t fixed_low_half(uint32_t a) {
+    uint32_t low = (uint16_t)a;
+#if FIXED_BY_HALVES && defined(__GNUC__)
+    __asm__("" : "+r"(low));
+#endif
+    return low;
+}
 
 TUILE_INLINE int64_t fixed_mul_wide_by_halves(int32_t a, int32_t b) {
     const int32_t ah = a >> 16, bh = b >> 16;
-    const uint32_t al = (uint32_t)a & 0xffffu, bl = (uint32_t)b & 0xffffu, low = al * bl;
+    const uint32_t al = fixed_low_half((uint32_t)a), bl = fixed_low_half((uint32_t)b), low = al * bl;
     const int32_t cross = ah * (int32_t)bl; /* >= -2^31, < 2^31 - 2^15 */
     const int32_t other = bh * (int32_t)al;
-    const uint32_t middle = (low >> 16) + ((uint32_t)cross & 0xffffu) + ((uint32_t)other & 0xffffu); /* < 3 * 2^16 */
+    const uint32_t middle = (low >> 16) + fixed_low_half((uint32_t)cross) + fixed_low_half((uint32_t)other); /* < 3 * 2^16 */
     const int32_t high = ah * bh + (cross >> 16) + (other >> 16) + (int32_t)(middle >> 16);
-    return (int64_t)((uint64_t)(uint32_t)high << 32 | middle << 16 | (low & 0xffffu));
+    return (int64_t)((uint64_t)(uint32_t)high << 32 | middle << 16 | fixed_low_half(low));
 }
 
 /* a * b, exactly. */
@@ -81,7 +96,7 @@ TUILE_INLINE int64_t fixed_mul_wide(int32_t a, int32_t b) {
 
 TUILE_INLINE uint64_t fixed_mul_part_by_halves(uint64_t a, uint32_t b) {
     const uint32_t low = (uint32_t)a;
-    const uint32_t first = (low & 0xffffu) * b, second = (low >> 16) * b, third = (uint32_t)(a >> 32) * b;
+    const uint32_t first = fixed_low_half(low) * b, second = (low >> 16) * b, third = (uint32_t)(a >> 32) * b;
     return first + ((uint64_t)second << 16) + ((uint64_t)third << 32);
 }
 
@@ -94,18 +109,29 @@ TUILE_INLINE uint64_t fixed_mul_signed_part(uint64_t a, int_fast32_t b) {
     return b < 0 ? 0 - fixed_mul_part_by_halves(a, (uint32_t)-b) : fixed_mul_part_by_halves(a, (uint32_t)b);
 }
 
-/* floor(a / b), |a| < 2^46, 0 < b < 2^18, by 32-bit divisions: 14 bits of a at a time, so that remainders leave room for them. */
-TUILE_INLINE int64_t fixed_floor_div46_by_words(int64_t a, int32_t b) {
+/* n / b by r, floor((2^31 - 1) / b): at most 4 too small before it is put right. */
+TUILE_INLINE uint32_t fixed_divide_by_reciprocal(uint32_t n, uint32_t b, int32_t r) {
+    uint32_t quotient = (uint32_t)(fixed_mul_wide_by_halves((int32_t)(n >> 1), r) >> 30), rest = n - quotient * b;
+    for (; rest >= b; rest -= b) {
+        quotient++;
+    }
+    return quotient;
+}
+
+/* floor(a / b), |a| < 2^46, 0 < b < 2^18, by 32-bit divisions: 14 bits of a at a time, so that remainders leave room for them. With
+ * r above 0, fixed_divide_by_reciprocal. */
+TUILE_INLINE int64_t fixed_floor_div46_by_words(int64_t a, int32_t b, int32_t r) {
     const uint32_t divisor = (uint32_t)b;
     const uint64_t size = a < 0 ? ~(uint64_t)a : (uint64_t)a; /* floor(a / b) = -1 - floor((-1 - a) / b) */
-    const uint32_t high = (uint32_t)(size >> 14), quotient = high / divisor;
+    const uint32_t high = (uint32_t)(size >> 14), quotient = r > 0 ? fixed_divide_by_reciprocal(high, divisor, r) : high / divisor;
     const uint32_t low = (high - quotient * divisor) << 14 | ((uint32_t)size & 0x3fffu);
-    const uint64_t whole = ((uint64_t)quotient << 14) + low / divisor;
+    const uint64_t whole = ((uint64_t)quotient << 14) + (r > 0 ? fixed_divide_by_reciprocal(low, divisor, r) : low / divisor);
     return (int64_t)(a < 0 ? ~whole : whole);
 }
 
-TUILE_INLINE int64_t fixed_floor_div46(int64_t a, int32_t b) {
-    return FIXED_WIDE_REGISTERS ? fixed_floor_div64(a, b) : fixed_floor_div46_by_words(a, b);
+/* The same; r = floor((2^31 - 1) / b), which only some machines make use of. */
+TUILE_INLINE int64_t fixed_floor_div46(int64_t a, int32_t b, int32_t r) {
+    return FIXED_WIDE_REGISTERS ? fixed_floor_div64(a, b) : fixed_floor_div46_by_words(a, b, FIXED_BY_HALVES ? r : 0);
 }
 
 /* floor(a * b / 2^32), |a| <= 2^31: |result| < 2^31. */

@@ -7,16 +7,20 @@ static void the_table_is_that_of_its_comment(void **state) {
     (void)state;
     assert_int_equal(divide_table[0], 0);
     for (uint32_t i = 1; i < DIVIDE_TABLE; i++) {
-        assert_int_equal(divide_table[i], (1u << 22) / i);
+        assert_int_equal(divide_table[i], (1u << 31) / i);
     }
 }
 
-static void slopes_of_short_sides_are_floored(void **state) {
+/* Either way of dividing: less than 1.25 too small, and less than 1 too large; in quarters. */
+static void slopes_of_short_sides_are_as_near_as_sides_need(void **state) {
     (void)state;
     for (int32_t dy = 1; dy < 512; dy += CHECK_SANITIZED ? 7 : 1) {
         for (int32_t dx = -511; dx < 512; dx++) {
-            const int32_t slope = divide_side_by_table(dx, dy);
-            assert_true((int64_t)slope * dy <= (int64_t)dx * (1 << 20) && (int64_t)dx * (1 << 20) < ((int64_t)slope + 1) * dy);
+            const int64_t exact = (int64_t)dx * (1 << 20); /* times dy */
+            const int64_t table = 4 * (divide_side_by_table(dx, dy) * (int64_t)dy - exact),
+                          here = 4 * (divide_side(dx, dy) * (int64_t)dy - exact);
+            assert_true(-5 * dy < table && table < dy);
+            assert_true(-5 * dy < here && here < 4 * dy);
         }
     }
 }
@@ -38,7 +42,7 @@ static void ones_are_divided_by_16_bits(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_table_is_that_of_its_comment),
-        cmocka_unit_test(slopes_of_short_sides_are_floored),
+        cmocka_unit_test(slopes_of_short_sides_are_as_near_as_sides_need),
         cmocka_unit_test(reciprocals_of_areas_are_floored),
         cmocka_unit_test(ones_are_divided_by_16_bits),
     };

@@ -62,9 +62,8 @@ static bool draw_small(const case_t *c, picture_t *picture) {
         small_face_t face;
         if (first >= bottom || end <= top || first >= end) { continue; }
         if (!small_open(&face, &c->v[0], &c->v[1], &c->v[2], &tile, 0)) { return false; }
-        const bool below = c->kind == SMALL_GOURAUD
-                               ? small_fill(&face, &c->v[0], &c->v[1], &c->v[2], &tile, SMALL_GOURAUD, true, 0, &paint)
-                               : small_fill(&face, &c->v[0], &c->v[1], &c->v[2], &tile, SMALL_FLAT, false, 0, &paint);
+        const bool clamp = !small_inside(&face.corners, &tile), smooth = c->kind == SMALL_GOURAUD;
+        const bool below = small_fill(&face, &c->v[0], &c->v[1], &c->v[2], &tile, c->kind, smooth, 0, &paint, clamp);
         assert_int_equal(below, end > bottom);
     }
     return true;
@@ -180,7 +179,7 @@ static void columns_beside_the_tile_are_left_alone(void **state) {
                 small_face_t face;
                 assert_true(check_same(&cases[i]));
                 assert_true(small_open(&face, &cases[i].v[0], &cases[i].v[1], &cases[i].v[2], &tile, SMALL_IS_SHORT));
-                assert_int_equal(face.inside, i == 0 ? more >= 0 : more <= 0);
+                assert_int_equal(small_inside(&face.corners, &tile), i == 0 ? more >= 0 : more <= 0);
             }
         }
     }

@@ -71,9 +71,9 @@ TUILE_INLINE int32_t short_edge_pixel(int32_t x) { return x >> 20; }
 
 /* edge_row(y0) <= row < edge_row(y1), so that t < dy and |t * slope| < 2^29. 8 - 2^15 <= x0 < 2^15 - 2^4. */
 TUILE_INLINE short_edge_t short_edge_start(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t row) {
-    const int32_t slope = fixed_floor_div((x1 - x0) * (1 << 20), y1 - y0);
+    const int32_t slope = fixed_floor_div((x1 - x0) * (INT32_C(1) << 20), y1 - y0);
     const int32_t t = 16 * row + 8 - y0;
-    return (short_edge_t){(x0 - 8) * (1 << 16) + ((t * slope) >> 4) + (1 << 20) - 1, slope};
+    return (short_edge_t){(x0 - 8) * (INT32_C(1) << 16) + ((t * slope) >> 4) + (INT32_C(1) << 20) - 1, slope};
 }
 
 /* One row down. */

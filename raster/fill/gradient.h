@@ -18,12 +18,14 @@ TUILE_INLINE gradient_t gradient_exact(int32_t c1, int32_t c2, int32_t x1, int32
                         fixed_floor_div64(fixed_shift_left64(ny, unit_bits), area)};
 }
 
-/* The exact ones of sides below 32 pixels: |c| < 2^24 with unit_bits 12, or < 2^8 with 28; area < 2^18. */
+/* The exact ones of sides below 32 pixels: |c| < 2^24 with unit_bits 12, or < 2^8 with 28; area < 2^18, reciprocal = floor((2^31 -
+ * 1) / area). */
 TUILE_INLINE gradient_t gradient_exact_short(int32_t c1, int32_t c2, int32_t x1, int32_t y1, int32_t x2, int32_t y2, int32_t area,
-                                             unsigned unit_bits) {
-    const int64_t nx = (int64_t)c2 * y1 - (int64_t)c1 * y2, ny = (int64_t)c1 * x2 - (int64_t)c2 * x1; /* < 2^(46 - unit_bits) */
-    return (gradient_t){fixed_floor_div46(fixed_shift_left64(nx, unit_bits), area),
-                        fixed_floor_div46(fixed_shift_left64(ny, unit_bits), area)};
+                                             int32_t reciprocal, unsigned unit_bits) {
+    const int64_t nx = fixed_mul_wide(c2, y1) - fixed_mul_wide(c1, y2); /* < 2^(46 - unit_bits) */
+    const int64_t ny = fixed_mul_wide(c1, x2) - fixed_mul_wide(c2, x1);
+    return (gradient_t){fixed_floor_div46(fixed_shift_left64(nx, unit_bits), area, reciprocal),
+                        fixed_floor_div46(fixed_shift_left64(ny, unit_bits), area, reciprocal)};
 }
 
 TUILE_INLINE gradient_t gradient_small(int32_t c1, int32_t c2, int32_t x1, int32_t y1, int32_t x2, int32_t y2, int32_t reciprocal,

@@ -76,25 +76,76 @@ TUILE_INLINE bool small_inside(const small_corners_t *c, const small_tile_t *til
 /* What is affine over the triangle, at the centre of a pixel: to_x right and to_y below the top corner, sixteenths of a pixel, 1
  * ... 16 and 1 ... 2^9. |gradients| < 2^46: the sum stays below 2^57. */
 TUILE_INLINE uint64_t small_at(gradient_t g, int64_t at_corner, small_int_t to_x, small_int_t to_y) {
+    if (FIXED_BY_HALVES) { /* modulo 2^32, which is enough where registers have 32 bits */
+        const uint32_t x = (uint32_t)to_x, y = (uint32_t)to_y;
+        const uint32_t whole = (uint32_t)(g.dx >> 16) * x + (uint32_t)(g.dy >> 16) * y;
+        const uint32_t part = fixed_low_half((uint32_t)g.dx) * x + fixed_low_half((uint32_t)g.dy) * y; /* < 2^20 + 2^25 */
+        return (uint32_t)at_corner + (whole << 12) + (part >> 4);
+    }
     const uint64_t sum = fixed_mul_part((uint64_t)g.dx, (uint32_t)to_x) + fixed_mul_part((uint64_t)g.dy, (uint32_t)to_y);
     return (uint64_t)(at_corner + ((int64_t)sum >> 4));
 }
 
+/* Depth and light as fill/triangle.c packs them, in one register where that has 64 bits. Elsewhere in two that carry nothing to one
+ * another, which is the same wherever a pixel is drawn: light is within its 32 bits there, so the sum of both has the depth above.
+ */
+#if FIXED_WIDE_REGISTERS
+typedef uint64_t small_shade_t;
+
+TUILE_INLINE small_shade_t small_shade(uint64_t depth, uint64_t light) {
+    return triangle_shade_pack((int64_t)depth, (int64_t)light);
+}
+TUILE_INLINE small_shade_t small_shade_sum(small_shade_t a, small_shade_t b) { return a + b; }
+TUILE_INLINE small_shade_t small_shade_times(small_shade_t a, small_int_t n) { return a * (uint64_t)n; }
+TUILE_INLINE uint32_t small_shade_depth(small_shade_t a) { return (uint32_t)(a >> 32); }
+TUILE_INLINE uint32_t small_shade_light(small_shade_t a) { return (uint32_t)a; }
+#else
+typedef struct small_shade {
+    uint32_t depth, light;
+} small_shade_t;
+
+TUILE_INLINE small_shade_t small_shade(uint64_t depth, uint64_t light) { return (small_shade_t){(uint32_t)depth, (uint32_t)light}; }
+TUILE_INLINE small_shade_t small_shade_sum(small_shade_t a, small_shade_t b) {
+    return (small_shade_t){a.depth + b.depth, a.light + b.light};
+}
+TUILE_INLINE small_shade_t small_shade_times(small_shade_t a, small_int_t n) {
+    return (small_shade_t){a.depth * (uint32_t)n, a.light * (uint32_t)n};
+}
+TUILE_INLINE uint32_t small_shade_depth(small_shade_t a) { return a.depth; }
+TUILE_INLINE uint32_t small_shade_light(small_shade_t a) { return a.light; }
+#endif
+
+/* Of triangles whose depths are far apart: one in six. Where that takes much code it is not in line. */
+#if FIXED_BY_HALVES
+TUILE_SELDOM
+#else
+TUILE_INLINE
+#endif
+triangle_gradients_t small_gradients_exact(const small_corners_t *c, int32_t z1, int32_t z2, int32_t light1, int32_t light2,
+                                           bool gouraud) {
+    const int32_t x1 = (int32_t)c->x1, y1 = (int32_t)c->y1, x2 = (int32_t)c->x2, y2 = (int32_t)c->y2, area = x2 * y1 - x1 * y2;
+    const int32_t reciprocal = FIXED_BY_HALVES ? divide_area(area) : 0;
+    triangle_gradients_t g = {{0, 0}, {0, 0}};
+    g.depth = gradient_exact_short(z1, z2, x1, y1, x2, y2, area, reciprocal, 12);
+    if (gouraud) { g.light = gradient_exact_short(light1, light2, x1, y1, x2, y2, area, reciprocal, 28); }
+    return g;
+}
+
 TUILE_INLINE triangle_gradients_t small_gradients(const small_corners_t *c, const vertex_t *v0, const vertex_t *v1,
                                                   const vertex_t *v2, bool gouraud) {
-    const int32_t x1 = (int32_t)c->x1, y1 = (int32_t)c->y1, x2 = (int32_t)c->x2, y2 = (int32_t)c->y2, area = x2 * y1 - x1 * y2;
+    const int32_t x1 = (int32_t)c->x1, y1 = (int32_t)c->y1, x2 = (int32_t)c->x2, y2 = (int32_t)c->y2;
     const int32_t z0 = (int32_t)(v0->depth_light >> 8), z1 = (int32_t)(v1->depth_light >> 8) - z0,
                   z2 = (int32_t)(v2->depth_light >> 8) - z0;
     const int32_t light0 = (int32_t)(v0->depth_light & 0xff), light1 = (int32_t)(v1->depth_light & 0xff) - light0,
                   light2 = (int32_t)(v2->depth_light & 0xff) - light0;
     triangle_gradients_t g = {{0, 0}, {0, 0}};
     if (TUILE_LIKELY(triangle_depths_near(z1, z2))) {
-        const int32_t reciprocal = divide_area(area);
+        const int32_t reciprocal = divide_area(x2 * y1 - x1 * y2);
         g.depth = gradient_small(z1, z2, x1, y1, x2, y2, reciprocal, 12);
         if (gouraud) { g.light = gradient_small(light1, light2, x1, y1, x2, y2, reciprocal, 28); }
     } else {
-        g.depth = gradient_exact_short(z1, z2, x1, y1, x2, y2, area, 12);
-        if (gouraud) { g.light = gradient_exact_short(light1, light2, x1, y1, x2, y2, area, 28); }
+        const small_corners_t copy = *c; /* so that here they stay in registers */
+        g = small_gradients_exact(&copy, z1, z2, light1, light2, gouraud);
     }
     return g;
 }
@@ -103,24 +154,26 @@ typedef struct small_side {
     small_int_t x, slope; /* short_edge_t */
 } small_side_t;
 
-/* One side at the centre of a row `t` sixteenths below its upper end, which is `start` in columns (small_start): fill/edge.h. */
+/* One side at the centre of a row `t` sixteenths below its upper end, which is `start` in columns (small_start). With the bias of
+ * fill/edge.h, 1 + e, any slope is good that keeps that above 0 and up to 128: one that is off by -1.25 ... 1 changes e by t / 16
+ * times as much, t < 512, and 64 lies in the middle. */
 TUILE_INLINE small_side_t small_side(small_int_t start, small_int_t dx, small_int_t dy, small_int_t t) {
     const int32_t slope = divide_side((int32_t)dx, (int32_t)dy);
     return (small_side_t){start + ((t * slope) >> 4), slope};
 }
 
 /* x sixteenths right of the column's centre. */
-TUILE_INLINE small_int_t small_start(small_int_t x) { return x * (1 << 16) + ((1 << 20) - 1); }
+TUILE_INLINE small_int_t small_start(small_int_t x) { return x * (INT32_C(1) << 16) + ((INT32_C(1) << 20) - 64); }
 
 /* ---- rows and pixels ---- */
 
 /* The rows of a triangle that are being filled. */
 typedef struct small_rows {
-    small_side_t a, b;       /* left and right, in columns */
-    uint64_t at, dx, dy;     /* depth and light in the column, and per pixel right and down: fill/triangle.c */
-    uint32_t map;            /* of the texture, in the column */
-    uint16_t *depth;         /* of the column */
-    small_int_t left, right; /* the tile's columns */
+    small_side_t a, b;        /* left and right, in columns */
+    small_shade_t at, dx, dy; /* in the column, and per pixel right and down */
+    uint32_t map;             /* of the texture, in the column */
+    uint16_t *depth;          /* of the column */
+    small_int_t left, right;  /* the tile's columns */
 } small_rows_t;
 
 TUILE_INLINE void small_span_flat(uint16_t *depth, const uint16_t *end, ptrdiff_t colour, uint32_t shade, uint32_t dx,
@@ -135,31 +188,31 @@ TUILE_INLINE void small_span_flat(uint16_t *depth, const uint16_t *end, ptrdiff_
     } while (++depth != end);
 }
 
-TUILE_INLINE void small_span_gouraud(uint16_t *depth, const uint16_t *end, ptrdiff_t colour, uint64_t shade, uint64_t dx,
+TUILE_INLINE void small_span_gouraud(uint16_t *depth, const uint16_t *end, ptrdiff_t colour, small_shade_t shade, small_shade_t dx,
                                      const uint16_t *ramp) {
     do {
-        const uint16_t z = (uint16_t)(shade >> 48);
+        const uint16_t z = (uint16_t)(small_shade_depth(shade) >> 16);
         if (z > *depth) {
             *depth = z;
-            depth[colour] = ramp[(uint32_t)shade >> 26];
+            depth[colour] = ramp[small_shade_light(shade) >> 26];
         }
-        shade += dx;
+        shade = small_shade_sum(shade, dx);
     } while (++depth != end);
 }
 
-TUILE_INLINE void small_span_textured(uint16_t *depth, const uint16_t *end, ptrdiff_t colour, uint64_t shade, uint64_t dx,
+TUILE_INLINE void small_span_textured(uint16_t *depth, const uint16_t *end, ptrdiff_t colour, small_shade_t shade, small_shade_t dx,
                                       const small_paint_t *paint, uint32_t at, bool paletted) {
     const textured_map_t *map = &paint->map;
     const uint32_t at_dx = map->dx, mask = map->mask, shift = map->shift;
     do {
-        const uint16_t z = (uint16_t)(shade >> 48);
+        const uint16_t z = (uint16_t)(small_shade_depth(shade) >> 16);
         if (z > *depth) {
             const uint32_t index = textured_index(at, mask, shift, &paint->constants),
                            texel = textured_texel(map->texels, map->palette, index, paletted);
             *depth = z;
-            depth[colour] = textured_lit(texel, textured_levels_of((uint32_t)shade), &paint->constants, true);
+            depth[colour] = textured_lit(texel, textured_levels_of(small_shade_light(shade)), &paint->constants, true);
         }
-        shade += dx;
+        shade = small_shade_sum(shade, dx);
         at += at_dx;
     } while (++depth != end);
 }
@@ -169,9 +222,9 @@ TUILE_INLINE void small_span(const small_rows_t *r, const small_tile_t *tile, sm
                              const small_paint_t *paint) {
     uint16_t *depth = r->depth + from;
     const uint16_t *const end = r->depth + to;
-    const uint64_t shade = r->at + fixed_mul_signed_part(r->dx, from);
+    const small_shade_t shade = small_shade_sum(r->at, small_shade_times(r->dx, from));
     if (kind == SMALL_FLAT) {
-        small_span_flat(depth, end, tile->colour, (uint32_t)(shade >> 32), (uint32_t)(r->dx >> 32), paint->value);
+        small_span_flat(depth, end, tile->colour, small_shade_depth(shade), small_shade_depth(r->dx), paint->value);
     } else if (kind == SMALL_GOURAUD) {
         small_span_gouraud(depth, end, tile->colour, shade, r->dx, paint->ramp);
     } else if (paint->map.palette) {
@@ -198,7 +251,7 @@ TUILE_INLINE void small_rows_fill(small_rows_t *r, const small_tile_t *tile, sma
         if (from < to) { small_span(r, tile, from, to, kind, paint); }
         r->a.x = small_step(r->a);
         r->b.x = small_step(r->b);
-        r->at += r->dy;
+        r->at = small_shade_sum(r->at, r->dy);
         if (kind == SMALL_TEXTURED) { r->map += paint->map.dy; }
         r->depth += tile->stride;
     } while (--count);
@@ -225,7 +278,6 @@ typedef struct small_face {
     small_corners_t corners;
     small_int_t row, column; /* the pixel that all is counted from */
     small_int_t to_x, to_y;  /* its centre from the top corner, sixteenths of a pixel */
-    bool inside;             /* it touches no column beside the tile */
 } small_face_t;
 
 /* What is known of a triangle beforehand. */
@@ -242,42 +294,28 @@ TUILE_INLINE bool small_open(small_face_t *face, const vertex_t *v0, const verte
     face->column = (c.x0 + 7) >> 4;
     face->to_x = 16 * face->column + 8 - c.x0;
     face->to_y = 16 * face->row + 8 - c.y0;
-    face->inside = known & SMALL_IS_INSIDE || small_inside(&c, tile);
     return known & SMALL_IS_SHORT || small_short(&c);
 }
 
-TUILE_INLINE void small_part(small_rows_t *r, const small_tile_t *tile, small_int_t count, small_kind_t kind,
-                             const small_paint_t *paint, bool inside) {
-    if (TUILE_LIKELY(inside)) {
-        small_rows_fill(r, tile, count, kind, paint, false);
-    } else {
-        small_rows_fill(r, tile, count, kind, paint, true);
-    }
-}
-
-/* Draws it from the tile's first row to its last. smooth: light is interpolated; else it is `light`. True: it reaches below. */
+/* Draws it from the tile's first row to its last. smooth: light is interpolated; else it is `light`. clamp: small_rows_fill. True:
+ * it reaches below. */
 TUILE_INLINE bool small_fill(const small_face_t *face, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
-                             const small_tile_t *tile, small_kind_t kind, bool smooth, uint8_t light, const small_paint_t *paint) {
+                             const small_tile_t *tile, small_kind_t kind, bool smooth, uint8_t light, const small_paint_t *paint,
+                             bool clamp) {
     const small_corners_t c = face->corners;
     const small_int_t to_x = face->to_x, to_y = face->to_y, row = face->row;
     const triangle_gradients_t g = small_gradients(&c, v0, v1, v2, smooth);
     small_rows_t r;
-    r.at = triangle_shade_pack((int64_t)small_at(g.depth, triangle_depth_of(v0), to_x, to_y), 0);
-    r.dx = triangle_shade_pack(g.depth.dx, 0);
-    r.dy = triangle_shade_pack(g.depth.dy, 0);
-    if (smooth) {
-        r.at += small_at(g.light, triangle_light_of(v0), to_x, to_y);
-        r.dx += (uint64_t)g.light.dx;
-        r.dy += (uint64_t)g.light.dy;
-    } else if (kind == SMALL_TEXTURED) {
-        r.at += (uint64_t)light << 24;
-    }
+    const uint64_t light_at = smooth ? small_at(g.light, triangle_light_of(v0), to_x, to_y) : (uint64_t)light << 24;
+    r.at = small_shade(small_at(g.depth, triangle_depth_of(v0), to_x, to_y), kind == SMALL_FLAT ? 0 : light_at);
+    r.dx = small_shade((uint64_t)g.depth.dx, (uint64_t)g.light.dx);
+    r.dy = small_shade((uint64_t)g.depth.dy, (uint64_t)g.light.dy);
     if (kind == SMALL_TEXTURED) {
-        r.at += TEXTURED_BIAS;
+        r.at = small_shade_sum(r.at, small_shade(0, TEXTURED_BIAS));
         r.map = paint->map.v;
     }
-    r.left = tile->first - face->column;
-    r.right = tile->end - face->column;
+    r.left = clamp ? tile->first - face->column : 0;
+    r.right = clamp ? tile->end - face->column : 0;
     r.depth = tile->depth + (tile->origin + row * tile->stride + face->column);
 
     small_bend_t bend = {c.x1, c.y1, c.x2, c.y2, true};
@@ -290,13 +328,13 @@ TUILE_INLINE bool small_fill(const small_face_t *face, const vertex_t *v0, const
     if (row < row_mid) {
         from = row_mid < end ? row_mid : end;
         small_turn(&r, bend.left, small_side(start, bend.mid_x, bend.mid_y, to_y));
-        small_part(&r, tile, from - row, kind, paint, face->inside);
+        small_rows_fill(&r, tile, from - row, kind, paint, clamp);
     }
     if (from < end) {
         small_turn(&r, bend.left,
-                   small_side(start + bend.mid_x * (1 << 16), bend.low_x - bend.mid_x, bend.low_y - bend.mid_y,
+                   small_side(start + bend.mid_x * (INT32_C(1) << 16), bend.low_x - bend.mid_x, bend.low_y - bend.mid_y,
                               16 * from + 8 - c.y0 - bend.mid_y));
-        small_part(&r, tile, end - from, kind, paint, face->inside);
+        small_rows_fill(&r, tile, end - from, kind, paint, clamp);
     }
     return row_end > tile->bottom;
 }

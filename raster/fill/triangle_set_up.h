@@ -17,7 +17,7 @@ TUILE_INLINE void side_start(triangle_t *triangle, bool left, int32_t x0, int32_
 /* The side that ends at the bend goes on below it. */
 void triangle_bend(triangle_t *t);
 
-#define TRIANGLE_SMALL_DEPTH (1 << 17)
+#define TRIANGLE_SMALL_DEPTH (INT32_C(1) << 17)
 
 TUILE_INLINE uint64_t triangle_shade_pack(int64_t depth, int64_t light) { return ((uint64_t)depth << 32) + (uint64_t)light; }
 

@@ -12,7 +12,7 @@
 #include "../fill/gradient.h"
 #include "texture.h"
 
-#define TEXTURE_SMALL (1 << 15) /* Q.8 */
+#define TEXTURE_SMALL (INT32_C(1) << 15) /* Q.8 */
 
 typedef struct texture_span3 {
     int32_t least, most;

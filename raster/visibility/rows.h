@@ -128,28 +128,32 @@ static inline bool state_in_columns(const tuile_t *t, const state_t *state) {
 /* ---- lists of records ---- */
 
 static inline uint16_t list_reverse(const tuile_t *t, uint16_t list) {
-    uint16_t reversed = RECORD_NONE;
-    while (list != RECORD_NONE) {
-        record_t *record = frame_record(t, list - 1u);
-        const uint16_t next = record->next;
-        record->next = reversed;
-        reversed = list;
-        list = next;
+    uint32_t reversed = RECORD_NONE;
+    for (uint32_t number = list, next; number != RECORD_NONE; number = next) {
+        record_t *record = frame_record(t, number - 1u);
+        next = record->next;
+        record->next = (uint16_t)reversed;
+        reversed = number;
     }
-    return reversed;
+    return (uint16_t)reversed;
 }
 
-/* Both sorted; so is the result. */
+/* Both sorted, without a common record; so is the result. */
 static inline uint16_t list_merge(const tuile_t *t, uint16_t a, uint16_t b) {
-    uint16_t merged = RECORD_NONE, *end = &merged;
-    while (a != RECORD_NONE && b != RECORD_NONE) {
-        uint16_t *less = a < b ? &a : &b;
-        *end = *less;
-        end = &frame_record(t, *less - 1u)->next;
-        *less = *end;
+    if (a == RECORD_NONE || b == RECORD_NONE) { return a | b; }
+    const uint16_t merged = a < b ? a : b;
+    uint32_t from = merged, other = a < b ? b : a;
+    for (;;) { /* `from` is the lesser one */
+        uint16_t *next;
+        do {
+            next = &frame_record(t, from - 1u)->next;
+            from = *next;
+        } while (from - 1u < other - 1u); /* at its list's end it is none, and not less */
+        *next = (uint16_t)other;
+        if (from == RECORD_NONE) { return merged; }
+        const uint32_t greater = from;
+        from = other, other = greater;
     }
-    *end = a != RECORD_NONE ? a : b;
-    return merged;
 }
 
 /* ---- rows of tiles ---- */
@@ -237,6 +241,13 @@ TUILE_INLINE bool small_prepare(tuile_t *t, const record_t *record, uint32_t num
     return true;
 }
 
+/* small_fill of those that touch columns beside the tile; kind and smooth are no constants here. */
+static TUILE_NOINLINE bool small_fill_clamped(const small_face_t *face, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2,
+                                              const small_tile_t *tile, small_kind_t kind, bool smooth, uint8_t light,
+                                              const small_paint_t *paint) {
+    return small_fill(face, v0, v1, v2, tile, kind, smooth, light, paint, true);
+}
+
 /* Draws small triangles without a state, up to the next face that is not one, or to record `limit`. */
 TUILE_INLINE void smalls_draw(tuile_t *t, walk_t *walk, uint32_t limit, small_kind_t kind) {
     small_tile_t tile = small_tile(&t->tile);
@@ -256,7 +267,7 @@ TUILE_INLINE void smalls_draw(tuile_t *t, walk_t *walk, uint32_t limit, small_ki
         paint.constants = textured_constants();
         tile.colour = (t->working ? (uint16_t *)t->working : (uint16_t *)(void *)t->colours[t->next_buffer]) - tile.depth;
     }
-    while ((uint32_t)list - 1u < limit) { /* RECORD_NONE is not */
+    for (; (uint32_t)list - 1u < limit; count++) { /* RECORD_NONE is not */
         const record_t *record = (const record_t *)(const void *)(arena_end - list * record_bytes);
         if (TUILE_UNLIKELY(!frame_record_is_triangle(record))) { break; }
         const uint32_t number = (uint32_t)list - 1u;
@@ -268,14 +279,22 @@ TUILE_INLINE void smalls_draw(tuile_t *t, walk_t *walk, uint32_t limit, small_ki
             paint.ramp = kind == SMALL_GOURAUD ? frame_ramp(t, record->material) : frame_flat_ramp(t, record->material);
         }
         if (!small_prepare(t, record, number, kind, smooth, &face, v0, v1, v2, &paint)) { break; }
-        const bool reaches = small_fill(&face, v0, v1, v2, &tile, kind, smooth, record->light, &paint);
-        list = record->next;
-        count++;
-        if (t->tile_columns > 1 && !face.inside) {
-            columns_hand_on(t, number, column, (int32_t)tile.bottom, &walk->right, &walk->left);
-        } else if (reaches) {
-            list_append(t, &walk->left, number);
+        bool reaches;
+        if (TUILE_LIKELY(known & SMALL_IS_INSIDE) || small_inside(&face.corners, &tile)) {
+            reaches = small_fill(&face, v0, v1, v2, &tile, kind, smooth, record->light, &paint, false);
+            list = record->next;
+        } else { /* copies, so that here all stay in registers */
+            const small_face_t beside = face;
+            const small_tile_t on = tile;
+            const small_paint_t in = paint;
+            reaches = small_fill_clamped(&beside, v0, v1, v2, &on, kind, smooth, record->light, &in);
+            list = record->next;
+            if (t->tile_columns > 1) {
+                columns_hand_on(t, number, column, (int32_t)tile.bottom, &walk->right, &walk->left);
+                continue;
+            }
         }
+        if (reaches) { list_append(t, &walk->left, number); }
     }
     walk->list = (uint16_t)list;
     t->stats.faces_setup += count;
