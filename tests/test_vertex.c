@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "../raster/geometry/model.h"
 #include "../raster/geometry/transform.h"
 #include "../raster/geometry/vertex.h"
 #include "support/random.h"
@@ -30,6 +31,35 @@ static void aim(const set_up_t *s, const long double view[3], int16_t q[3]) {
              s->model.offset[i];
         if (fabsl(at) < 32767) { q[i] = (int16_t)lroundl(at); }
     }
+}
+
+/* What is known of a cluster's sphere changes none of its vertices. Returns whether some of them are in the window. */
+static bool check_in_sphere(random_source_t *random, const transform_t *transform, const int16_t centre[3]) {
+    enum { VERTICES = 8 };
+    const int32_t reach = random_between(random, 0, 1 << random_between(random, 0, 15));
+    const int32_t radius = (reach * 7 + 3) / 4; /* at least sqrt(3) times as much */
+    uint8_t cluster[MODEL_CLUSTER_BYTES] = {0};
+    int16_t q[VERTICES][3];
+    vertex_t alone[VERTICES], together[VERTICES];
+    bool inside = false;
+    if (radius > UINT16_MAX) { return false; }
+    for (int i = 0; i < 3; i++) {
+        cluster[CLUSTER_AT_CENTRE + 2 * i] = (uint8_t)centre[i];
+        cluster[CLUSTER_AT_CENTRE + 2 * i + 1] = (uint8_t)((uint16_t)centre[i] >> 8);
+        for (int v = 0; v < VERTICES; v++) { /* the corners of a box, and what lies between */
+            const int32_t to = v < 4 ? (v >> i & 1 ? reach : -reach) : random_between(random, -reach, reach), at = centre[i] + to;
+            q[v][i] = (int16_t)(at < -32767 ? -32767 : at > 32767 ? 32767 : at);
+        }
+    }
+    cluster[CLUSTER_AT_RADIUS] = (uint8_t)radius;
+    cluster[CLUSTER_AT_RADIUS + 1] = (uint8_t)(radius >> 8);
+    (void)vertex_stage(transform, q[0], NULL, VERTICES, alone);
+    (void)vertex_stage_region(transform, cluster, q[0], NULL, VERTICES, together);
+    assert_memory_equal(alone, together, sizeof alone);
+    for (int v = 0; v < VERTICES; v++) {
+        inside |= alone[v].x != VERTEX_OUTSIDE;
+    }
+    return inside;
 }
 
 static void one_vertex_by_hand(void **state) {
@@ -63,7 +93,7 @@ static void one_vertex_by_hand(void **state) {
 static void vertices_land_within_their_error(void **state) {
     random_source_t random = random_seed(32);
     long double worst[2] = {0, 0}, worst_depth[2] = {0, 0};
-    unsigned made[2] = {0, 0}, inside[2] = {0, 0}, outside[2] = {0, 0}, refused = 0;
+    unsigned made[2] = {0, 0}, inside[2] = {0, 0}, outside[2] = {0, 0}, refused = 0, in_spheres = 0;
     (void)state;
     for (int round = 0; round < CHECK_ROUNDS(40000); round++) {
         enum { COUNT = 24 };
@@ -139,6 +169,9 @@ static void vertices_land_within_their_error(void **state) {
             found_outside |= v[i].x == VERTEX_OUTSIDE;
         }
         assert_int_equal(any_outside, found_outside);
+        for (int i = 0; i < COUNT; i++) {
+            in_spheres += check_in_sphere(&random, &transform, q[i]);
+        }
         vertex_stage(&transform, q[COUNT / 2], NULL, COUNT / 2, again); /* the same positions in another cluster */
         assert_memory_equal(again, v + COUNT / 2, COUNT / 2 * sizeof v[0]);
         for (int i = 0; i < COUNT; i++) {
@@ -169,6 +202,8 @@ static void vertices_land_within_their_error(void **state) {
             assert_true(v[i].depth_light >> 8 >= 512 && v[i].depth_light >> 8 <= 65529 * 256);
         }
     }
+    print_message("%u clusters with vertices in the window\n", in_spheres);
+    assert_true(in_spheres > made[0]);
     for (int ortho = 0; ortho < 2; ortho++) {
         print_message("%s: %u set-ups, %u vertices in, %u out; window error %.5Lf px (snap 1/32 + %.5Lf), depth %.4Lf step\n",
                       ortho ? "orthographic" : "perspective", made[ortho], inside[ortho], outside[ortho], worst[ortho],

@@ -19,12 +19,12 @@ int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster)
     const uint32_t first_vertex = model_u32(bytes + CLUSTER_AT_FIRST_VERTEX);
 
     t->stats.clusters++;
-    if (cull_outside(&t->transform, bytes)) {
-        t->stats.clusters_outside++;
-        return BIN_CULLED;
-    }
     if (cull_faces_away(&t->transform, bytes)) {
         t->stats.clusters_facing_away++;
+        return BIN_CULLED;
+    }
+    if (cull_outside(&t->transform, bytes)) {
+        t->stats.clusters_outside++;
         return BIN_CULLED;
     }
     const uint32_t ahead = t->numbers != NULL ? SOURCE_SLOTS : 0;
@@ -39,7 +39,7 @@ int bin_cluster_open(tuile_t *t, const uint8_t *bytes, frame_cluster_t *cluster)
     }
     bin_cluster_at(t, bytes, t->vertex_count + ahead, cluster);
     if (TUILE_HAS(MORPH) && TUILE_UNLIKELY(t->instance->morph != 0)) { frame_morph_cluster(t, cluster); }
-    const unsigned any = vertex_stage_region(&t->transform, cluster->positions,
+    const unsigned any = vertex_stage_region(&t->transform, bytes, cluster->positions,
                                              t->config.shade == TUILE_FLAT ? NULL : cluster->normals, vertices, cluster->vertices);
     cluster->any_outside = any & VERTEX_ANY_OUTSIDE;
     cluster->any_beyond = any != 0;

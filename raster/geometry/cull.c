@@ -20,14 +20,14 @@
 static bool sphere_outside(const transform_t *transform, unsigned planes, const int32_t centre[3], uint32_t radius,
                            unsigned *crossed) {
     *crossed = 0;
-    for (unsigned p = 0; planes >> p; p++) {
-        if (!(planes >> p & 1u)) { continue; }
-        const transform_plane_t *plane = &transform->planes[p];
-        const int64_t value =
-            (int64_t)plane->n[0] * centre[0] + (int64_t)plane->n[1] * centre[1] + (int64_t)plane->n[2] * centre[2] + plane->d;
-        const int64_t reach = (int64_t)((uint64_t)plane->length * radius);
+    const transform_plane_t *plane = transform->planes;
+    for (unsigned bit = 1; planes; plane++, bit <<= 1, planes >>= 1) {
+        if (!(planes & 1u)) { continue; }
+        const int64_t value = fixed_mul_wide(plane->n[0], centre[0]) + fixed_mul_wide(plane->n[1], centre[1]) +
+                              fixed_mul_wide(plane->n[2], centre[2]) + plane->d;
+        const int64_t reach = (int64_t)fixed_mul_part(plane->length, radius);
         if (value + reach < 0) { return true; }
-        if (value - reach < 0) { *crossed |= 1u << p; }
+        if (value - reach < 0) { *crossed |= bit; }
     }
     return false;
 }
@@ -109,26 +109,25 @@ bool cull_instance_outside(const tuile_camera_t *camera, const tuile_instance_t 
 
 bool cull_faces_away(const transform_t *transform, const uint8_t *cluster) {
     const uint32_t cutoff = cluster[CLUSTER_AT_CUTOFF];
+    const int32_t ax = (int8_t)cluster[CLUSTER_AT_AXIS], ay = (int8_t)cluster[CLUSTER_AT_AXIS + 1],
+                  az = (int8_t)cluster[CLUSTER_AT_AXIS + 2];
+    const unsigned shift = transform->eye_shift;
+    int32_t x = transform->eye[0], y = transform->eye[1], z = transform->eye[2];
+    int32_t room = 0; /* what the cluster's size takes of the product */
     if (cutoff == 255 || !transform->cones) { return false; }
-
-    int64_t dot = 0;
-    uint64_t squares = 0;
-    uint32_t axis_squares = 0;
-    for (unsigned i = 0; i < 3; i++) {
-        const int32_t axis = (int8_t)cluster[CLUSTER_AT_AXIS + i];
-        int32_t v = transform->eye[i];
-        if (transform->perspective) { v = (model_i16(cluster + CLUSTER_AT_CENTRE + 2 * i) >> transform->eye_shift) - v; }
-        dot += (int64_t)axis * v;
-        squares += (uint64_t)((int64_t)v * v);
-        axis_squares += (uint32_t)(axis * axis);
-    }
-    if (transform->mirrored) { dot = -dot; } /* the faces that look at the eye are the back faces */
     if (transform->perspective) {
+        x = (model_i16(cluster + CLUSTER_AT_CENTRE) >> shift) - x;
+        y = (model_i16(cluster + CLUSTER_AT_CENTRE + 2) >> shift) - y;
+        z = (model_i16(cluster + CLUSTER_AT_CENTRE + 4) >> shift) - z;
         /* What the shifts cut off is below 2 in each component and in the radius. */
-        const int64_t radius = (model_u16(cluster + CLUSTER_AT_RADIUS) >> transform->eye_shift) + (transform->eye_shift ? 8 : 1);
-        dot -= radius * AXIS_LENGTH_MAX;
+        room = ((model_u16(cluster + CLUSTER_AT_RADIUS) >> shift) + (shift ? 8 : 1)) * AXIS_LENGTH_MAX; /* < 2^24 */
     }
+    int32_t dot = ax * x + ay * y + az * z;  /* |x|, |y|, |z| < 2^22: below 3 * 2^29 */
+    if (transform->mirrored) { dot = -dot; } /* the faces that look at the eye are the back faces */
+    dot -= room;
+    const uint32_t axis_squares = (uint32_t)(ax * ax + ay * ay + az * az);
     if (dot < 0 || axis_squares > AXIS_LENGTH_MAX * AXIS_LENGTH_MAX) { return false; }
-    const uint64_t scaled = ((uint64_t)cutoff * cutoff * axis_squares + 64515u) / 64516u; /* (cutoff / 254)^2 |a|^2, rounded up */
-    return (uint64_t)(dot * dot) >= scaled * squares;
+    const uint64_t squares = (uint64_t)(fixed_mul_wide(x, x) + fixed_mul_wide(y, y) + fixed_mul_wide(z, z));
+    const uint32_t scaled = (cutoff * cutoff * axis_squares + 64515u) / 64516u; /* (cutoff / 254)^2 |a|^2, rounded up; < 2^31 */
+    return (uint64_t)fixed_mul_wide(dot, dot) >= scaled * squares;
 }

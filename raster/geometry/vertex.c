@@ -11,6 +11,7 @@
 #include "vertex.h"
 
 #include "../divide.h"
+#include "model.h"
 
 static vertex_t outside(uint8_t light) { return (vertex_t){VERTEX_OUTSIDE, 0, light}; }
 
@@ -56,16 +57,16 @@ static TUILE_NOINLINE vertex_t vertex_from_fine(const transform_t *transform, co
 /* 31 bits, in a whole register. By halves: the result fits in 32 bits, so all sums are modulo 2^32. */
 TUILE_INLINE int_fast32_t coarse(const transform_row_t *row, int32_t x, int32_t y, int32_t z) {
     if (!FIXED_BY_HALVES) {
-        return (int_fast32_t)(((int64_t)row->m[0] * x + (int64_t)row->m[1] * y + (int64_t)row->m[2] * z + row->t) >> 16);
+        return (int_fast32_t)((row->t + (int64_t)row->m[0] * x + (int64_t)row->m[1] * y + (int64_t)row->m[2] * z) >> 16);
     }
-    const int32_t q[3] = {x, y, z};
-    uint32_t high = (uint32_t)(row->t >> 16), low = (uint32_t)row->t & 0xffffu;
-    for (unsigned i = 0; i < 3; i++) {
-        const int32_t part = (row->m[i] & 0xffff) * q[i]; /* 16 bits by 16 signed ones */
-        high += (uint32_t)((row->m[i] >> 16) * q[i]) + (uint32_t)(part >> 16);
-        low += (uint32_t)part & 0xffffu;
-    }
-    return (int32_t)(high + (low >> 16));
+    /* 16 bits by 16 signed ones */
+    const int32_t px = (int32_t)fixed_low_half((uint32_t)row->m[0]) * x, py = (int32_t)fixed_low_half((uint32_t)row->m[1]) * y,
+                  pz = (int32_t)fixed_low_half((uint32_t)row->m[2]) * z;
+    const uint32_t low = fixed_low_half((uint32_t)row->t) + fixed_low_half((uint32_t)px) + fixed_low_half((uint32_t)py) +
+                         fixed_low_half((uint32_t)pz);
+    return (int32_t)((uint32_t)(row->t >> 16) + (uint32_t)((row->m[0] >> 16) * x) + (uint32_t)((row->m[1] >> 16) * y) +
+                     (uint32_t)((row->m[2] >> 16) * z) + (uint32_t)(px >> 16) + (uint32_t)(py >> 16) + (uint32_t)(pz >> 16) +
+                     (low >> 16));
 }
 
 /* Light at the next of the normals, if there are any. */
@@ -99,21 +100,33 @@ TUILE_INLINE bool octave_of(const transform_t *transform, vertex_octave_t *octav
     return true;
 }
 
-/* lit is a constant where this is called. */
+static uint32_t magnitude(int32_t a) { return a < 0 ? 0u - (uint32_t)a : (uint32_t)a; }
+
+/* One octave for all of a cluster, by its sphere, in which depths need no lower bound. Fractions may lie 1 step beside it. */
+static bool octave_of_cluster(const transform_t *transform, vertex_octave_t *octave, const uint8_t *cluster) {
+    const uint64_t slope = (uint64_t)magnitude(transform->w.m[0]) + magnitude(transform->w.m[1]) + magnitude(transform->w.m[2]);
+    const int64_t reach = (int64_t)((slope * (model_u16(cluster + CLUSTER_AT_RADIUS) + 2u)) >> 16) + 2; /* < 2^34 */
+    const int64_t w = coarse(&transform->w, model_i16(cluster + CLUSTER_AT_CENTRE), model_i16(cluster + CLUSTER_AT_CENTRE + 2),
+                             model_i16(cluster + CLUSTER_AT_CENTRE + 4));
+    return w - reach > 0 && w + reach < INT32_MAX && octave_of(transform, octave, (int32_t)(w - reach)) &&
+           (uint32_t)(w + reach) - octave->first < octave->range && octave->depth_shift <= 21;
+}
+
+/* lit and even are constants where this is called. even: all of the cluster is in `octave`, and there is no light but a one-sided
+ * one, or none is wanted. */
 TUILE_INLINE unsigned perspective(const transform_t *transform, const int16_t *q, const int8_t *normal, unsigned count,
-                                  vertex_t *out, bool lit) {
+                                  vertex_t *out, vertex_octave_t octave, bool lit, bool even) {
     const int32_t low_x = transform->guard_x + GUARD_MARGIN, low_y = transform->guard_y + GUARD_MARGIN;
     const int32_t region_x = transform->region_x, region_y = transform->region_y;
     const uint32_t region_width = transform->region_width, region_height = transform->region_height;
     const vertex_sun_t sun = vertex_sun(transform);
-    vertex_octave_t octave = {.range = 0};
     unsigned any = 0;
 
     for (const vertex_t *const end = out + count; out != end; q += 3, out++) {
-        const uint8_t light = lit ? vertex_sun_light(transform, &sun, normal) : LIGHT_MIN;
+        const uint8_t light = !lit ? LIGHT_MIN : even ? vertex_sun_front(&sun, normal) : vertex_sun_light(transform, &sun, normal);
         if (lit) { normal += 3; }
         const int32_t w = (int32_t)coarse(&transform->w, q[0], q[1], q[2]);
-        if (TUILE_UNLIKELY((uint32_t)w - octave.first >= octave.range) && !octave_of(transform, &octave, w)) {
+        if (!even && TUILE_UNLIKELY((uint32_t)w - octave.first >= octave.range) && !octave_of(transform, &octave, w)) {
             *out = vertex_from_fine(transform, q, NULL, light);
             any |= VERTEX_ANY_BEYOND | (out->x == VERTEX_OUTSIDE);
             continue;
@@ -122,7 +135,7 @@ TUILE_INLINE unsigned perspective(const transform_t *transform, const int16_t *q
         const int32_t x = (fixed_mul_high(coarse(&transform->x, q[0], q[1], q[2]), r) + octave.half) >> octave.shift;
         const int32_t y = (fixed_mul_high(coarse(&transform->y, q[0], q[1], q[2]), r) + octave.half) >> octave.shift;
         uint32_t depth = r >> octave.depth_shift;
-        if (depth < VERTEX_DEPTH_MIN) { depth = VERTEX_DEPTH_MIN; }
+        if (!even && depth < VERTEX_DEPTH_MIN) { depth = VERTEX_DEPTH_MIN; }
         *out = (vertex_t){(int16_t)x, (int16_t)y, depth << 8 | light};
         if (TUILE_LIKELY((uint32_t)(x - region_x) < region_width && (uint32_t)(y - region_y) < region_height)) { continue; }
         any |= VERTEX_ANY_BEYOND;
@@ -150,11 +163,23 @@ static unsigned orthographic(const transform_t *transform, const int16_t *q, con
     return any;
 }
 
-TUILE_NOINLINE unsigned vertex_stage_region(const transform_t *transform, const int16_t *positions, const int8_t *normals,
-                                            unsigned count, vertex_t *out) {
+static TUILE_NOINLINE unsigned perspective_any(const transform_t *transform, const int16_t *positions, const int8_t *normals,
+                                               unsigned count, vertex_t *out) {
+    const vertex_octave_t none = {.range = 0};
+    return normals ? perspective(transform, positions, normals, count, out, none, true, false)
+                   : perspective(transform, positions, NULL, count, out, none, false, false);
+}
+
+TUILE_NOINLINE unsigned vertex_stage_region(const transform_t *transform, const uint8_t *cluster, const int16_t *positions,
+                                            const int8_t *normals, unsigned count, vertex_t *out) {
+    vertex_octave_t octave;
     if (!transform->perspective) { return orthographic(transform, positions, normals, count, out); }
-    return normals ? perspective(transform, positions, normals, count, out, true)
-                   : perspective(transform, positions, NULL, count, out, false);
+    if (cluster == NULL || !octave_of_cluster(transform, &octave, cluster)) {
+        return perspective_any(transform, positions, normals, count, out);
+    }
+    if (!normals) { return perspective(transform, positions, NULL, count, out, octave, false, true); }
+    if (transform->light_count > 1 || transform->two_sided) { return perspective_any(transform, positions, normals, count, out); }
+    return perspective(transform, positions, normals, count, out, octave, true, true);
 }
 
 bool vertex_fractions(const transform_t *transform, const int16_t *positions, const int8_t *fractions, unsigned count,

@@ -25,14 +25,15 @@ enum {
     VERTEX_ANY_BEYOND = 2,  /* some of them is beyond the region (transform_region), so that a face may cover pixels there */
 };
 
-/* Fills out[0 ... count - 1]. normals: 3 x int8 each, or NULL when no light is wanted at the vertices. Returns VERTEX_ANY_... */
-unsigned vertex_stage_region(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count,
-                             vertex_t *out);
+/* Fills out[0 ... count - 1]. cluster: whose vertices they are (geometry/model.h), or NULL. normals: 3 x int8 each, or NULL when no
+ * light is wanted at the vertices. Returns VERTEX_ANY_... */
+unsigned vertex_stage_region(const transform_t *transform, const uint8_t *cluster, const int16_t *positions, const int8_t *normals,
+                             unsigned count, vertex_t *out);
 
 /* The same; returns whether any of them is outside. */
 static inline bool vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count,
                                 vertex_t *out) {
-    return vertex_stage_region(transform, positions, normals, count, out) & VERTEX_ANY_OUTSIDE;
+    return vertex_stage_region(transform, NULL, positions, normals, count, out) & VERTEX_ANY_OUTSIDE;
 }
 
 /* Makes those of out[0 ... count - 1] anew, after vertex_stage, whose positions have fractions: 3 x int8 each, in 1/256. Returns
@@ -68,6 +69,13 @@ typedef struct vertex_sun {
 TUILE_INLINE vertex_sun_t vertex_sun(const transform_t *transform) {
     return (vertex_sun_t){transform->lights[0][0], transform->lights[0][1],     transform->lights[0][2],
                           transform->ambient,      transform->light_count <= 1, transform->two_sided};
+}
+
+/* vertex_light at a normal of a model, where the light is alone and one-sided. */
+TUILE_INLINE uint8_t vertex_sun_front(const vertex_sun_t *sun, const int8_t *n) {
+    const int32_t dot = (n[0] * sun->x + n[1] * sun->y + n[2] * sun->z) >> 13;
+    const int32_t sum = sun->ambient + (dot & ~(dot >> 31));
+    return (uint8_t)(sum > LIGHT_MAX ? LIGHT_MAX : sum);
 }
 
 /* vertex_light at a normal of a model. */
