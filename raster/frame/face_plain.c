@@ -26,28 +26,27 @@ TUILE_INLINE void bucket_at(const tuile_t *t, face_bucket_t *bucket, uint32_t ro
     bucket->top = number * height;
 }
 
-/* flat is a constant where this is called. */
-TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count, bool flat) {
+/* flat and bytes, of a record, are constants where it matters. */
+TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count, bool flat, uint32_t bytes) {
     const vertex_t *const v = cluster->vertices;
-    const uint32_t base = (uint32_t)(v - t->vertices), bytes = t->record_bytes, before = t->record_count;
+    const uint32_t base = (uint32_t)(v - t->vertices), before = t->record_count;
     const uint8_t material_base = (uint8_t)t->material_base;
     const vertex_sun_t sun = vertex_sun(&t->transform);
-    const bool larger = bytes == sizeof(record_id_t);
+    const bool larger = bytes != sizeof(record_t);
     const int8_t *normal = cluster->face_normals;
     uint8_t *at = t->arena_end - (size_t)(before + 1) * bytes;
     face_bucket_t bucket = {&t->buckets[t->pass_first], (uint32_t)t->pass_first * t->config.tile_height};
-    uint32_t number = before, degenerate = 0, outside = 0;
-    int32_t longest = 0;
+    uint32_t number = before, degenerate = 0, outside = 0, longest = 0;
 
     for (const uint8_t *face = cluster->faces, *const end = face + (size_t)4 * count; face != end; face += 4) {
         uint32_t a = face[0], b = face[1], c = face[2];
         const int32_t xa = v[a].x, xb = v[b].x, xc = v[c].x;
         int32_t ya = v[a].y, yb = v[b].y, yc = v[c].y;
-        const int32_t area = (xc - xa) * (yb - ya) - (xb - xa) * (yc - ya);
+        const int32_t xab = xb - xa, xac = xc - xa, area = xac * (yb - ya) - xab * (yc - ya);
         const int8_t *const n = normal;
         if (flat) { normal += 3; }
         if (area <= 0) {
-            degenerate += area == 0;
+            if (TUILE_UNLIKELY(area == 0)) { degenerate++; }
             continue;
         }
         /* The topmost corner becomes the first; the order round the face stays. */
@@ -62,13 +61,13 @@ TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned
             c = b, b = a, a = last;
             yc = yb, yb = ya, ya = y;
         }
-        const int32_t bottom = yb > yc ? yb : yc, left = least3(xa, xb, xc), right = most3(xa, xb, xc);
-        const int32_t row = edge_row(ya);
-        if (row >= edge_row(bottom) || edge_row(left) >= edge_row(right)) {
+        const int32_t bottom = yb > yc ? yb : yc, row = edge_row(ya);
+        if (row >= edge_row(bottom)) { /* one that has rows but no columns is told when it is drawn */
             outside++;
             continue;
         }
-        longest |= (right - left) | (bottom - ya); /* SHORT_SIDE is a power of two */
+        /* Two sides within half of SHORT_SIDE, a power of two: so the third is within it. */
+        longest |= (uint32_t)(xab + SHORT_SIDE / 2) | (uint32_t)(xac + SHORT_SIDE / 2) | (uint32_t)(bottom - ya);
         record_t *record = (record_t *)(void *)at;
         at -= bytes;
         record->v0 = (uint16_t)(base + a);
@@ -91,15 +90,25 @@ TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned
 }
 
 static TUILE_NOINLINE void bin_flat(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
-    bin_plain(t, cluster, count, true);
+    bin_plain(t, cluster, count, true, sizeof(record_t));
 }
 
 static TUILE_NOINLINE void bin_smooth(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
-    bin_plain(t, cluster, count, false);
+    bin_plain(t, cluster, count, false, sizeof(record_t));
+}
+
+static TUILE_NOINLINE void bin_larger(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
+    bin_plain(t, cluster, count, cluster->face_normals != NULL, sizeof(record_id_t));
 }
 
 bool face_bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
     if (!is_plain(t, cluster, count)) { return false; }
-    cluster->face_normals ? bin_flat(t, cluster, count) : bin_smooth(t, cluster, count);
+    if (t->record_bytes != sizeof(record_t)) {
+        bin_larger(t, cluster, count);
+    } else if (cluster->face_normals) {
+        bin_flat(t, cluster, count);
+    } else {
+        bin_smooth(t, cluster, count);
+    }
     return true;
 }

@@ -138,13 +138,30 @@ static int pass_begin(tuile_t *t, uint32_t row, uint32_t column) {
 
 /* ---- tiles ---- */
 
-TUILE_NOINLINE void frame_fill_words(void *bytes, uint32_t word, size_t size_bytes) {
+#if defined(__GNUC__) && defined(__thumb__)
+/* Blocks of 64 bytes. Thumb stores several registers at once, which the compiler does not find. */
+static void fill_blocks(void *bytes, uint32_t word, size_t blocks) {
+    register uint32_t a __asm__("r2") = word, b __asm__("r3") = word, c __asm__("r4") = word, d __asm__("r5") = word;
+    for (const char *const end = (char *)bytes + blocks * 64; bytes != end;) {
+        __asm__ volatile("stmia %0!, {r2, r3, r4, r5}\n\tstmia %0!, {r2, r3, r4, r5}\n\t"
+                         "stmia %0!, {r2, r3, r4, r5}\n\tstmia %0!, {r2, r3, r4, r5}"
+                         : "+l"(bytes)
+                         : "l"(a), "l"(b), "l"(c), "l"(d)
+                         : "memory");
+    }
+}
+#else
+static void fill_blocks(void *bytes, uint32_t word, size_t blocks) {
     const uint64_t both = (uint64_t)word << 32 | word; /* two registers of a 32-bit machine go in one store */
-    uint64_t *at = bytes;
-    for (size_t left = (size_bytes + 63) / 64; left; left--, at += 8) {
+    for (uint64_t *at = bytes; blocks; blocks--, at += 8) {
         at[0] = both, at[1] = both, at[2] = both, at[3] = both;
         at[4] = both, at[5] = both, at[6] = both, at[7] = both;
     }
+}
+#endif
+
+TUILE_NOINLINE void frame_fill_words(void *bytes, uint32_t word, size_t size_bytes) {
+    fill_blocks(bytes, word, (size_bytes + 63) / 64);
 }
 
 static void tile_clear(tuile_t *t) {
