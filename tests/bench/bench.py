@@ -113,15 +113,12 @@ def count_rows(arguments):
         print(rows.line(row), flush=True)
         counted.append(row)
     for target in targets:
-        try:
-            for row in boards.count(target, commands[target]) if target in rows.BOARDS else []:
-                print(rows.line(row), flush=True)
-                counted.append(row)
-        except BenchError as error:
-            goes_on(None, error)
+        for row in boards.count(target, commands[target]) if target in rows.BOARDS else []:
+            print(rows.line(row), flush=True)
+            counted.append(row)
     rows.write_json(counted, os.path.join(arguments.out, "bench.json"))
     if faults:
-        raise BenchError(f"{len(faults)} could not be counted")
+        raise BenchError(f"{len(faults)} of {len(wanted)} rows could not be counted")
 
 
 def sweep(arguments):

@@ -129,7 +129,7 @@ class Boards(unittest.TestCase):
         self.assertNotIn("asleep", row)
 
     def test_frames_of_the_rp2040(self):
-        text = ("board 240 240 at 9.911\nframe cube zbuffer 0 passes 1 ms 10.000 asleep 2.500 wire 14.924 cycles 1000000 at 262.521\n"
+        text = ("board 240 240\nframe cube zbuffer 0 passes 1 ms 10.000 asleep 2.500 wire 14.924 cycles 1000000\n"
                 "frame cube zbuffer 1 passes 3 ms 20.000 asleep 0.000 wire 14.924 cycles 2000000\nstack 3428 of 8160\n")
         row, = boards.mean_rows(boards.rp2040_frames(text), "rp2040", "240x240")
         self.assertEqual((row["total"], row["asleep"], row["passes"]), (1500000, 125000, 2))
@@ -151,8 +151,7 @@ class Words(unittest.TestCase):
                 models.source(word)
 
     def test_what_is_not_a_size_or_a_number_of_bytes(self):
-        self.assertEqual(rows.size_of("320x0", "TILE"), (320, 0))
-        self.assertEqual([rows.bytes_of(text) for text in ("24K", "4M", "99")], [24576, 4194304, 99])
+        self.assertEqual((rows.size_of("320x0", "TILE"), rows.bytes_of("24K"), rows.bytes_of("4M"), rows.bytes_of("99")), ((320, 0), 24576, 4194304, 99))
         for text in ("320", "x", "0x24", "axb", "1x2x3"):
             with self.assertRaises(BenchError):
                 rows.size_of(text, "TILE")
@@ -164,8 +163,7 @@ class Words(unittest.TestCase):
         class Made:
             source = staticmethod(lambda word: (word, word, 0))
             compiled = staticmethod(lambda word, tree: (word, word + "-tree" * tree))
-        wanted = bench.wanted_rows(Made, ["a"], ["x86-64", "cortex-m3"], ["zbuffer", "tree"], ["flat"], "320x240", ["320x24", "32x32"],
-                                   1)
+        wanted = bench.wanted_rows(Made, ["a"], ["x86-64", "cortex-m3"], ["zbuffer", "tree"], ["flat"], "320x240", ["320x24", "32x32"], 1)
         self.assertEqual([(spec["target"], spec["method"], spec["tile"], path) for spec, path in wanted],
                          [("x86-64", "zbuffer", "320x24", "a"), ("cortex-m3", "zbuffer", "320x24", "a"), ("x86-64", "tree", "320x24", "a-tree"),
                           ("x86-64", "zbuffer", "32x32", "a"), ("x86-64", "tree", "32x32", "a-tree")])
@@ -173,8 +171,8 @@ class Words(unittest.TestCase):
 
 class Comparing(unittest.TestCase):
     def test_per_cent_of_what_it_took(self):
-        for before, after, text in ((200, 250, "+25.0"), (200, 100, "-50.0"), (100000, 100001, "0.0"), (100000, 99999, "0.0"),
-                                    (0, 5, "new"), (0, 0, ""), (10, 9, "-10.0")):
+        for before, after, text in ((200, 250, "+25.0"), (200, 100, "-50.0"), (100000, 100001, "0.0"), (100000, 99999, "0.0"), (0, 5, "new"), (0, 0, ""),
+                                    (10, 9, "-10.0")):
             self.assertEqual(compare.change(before, after), text)
 
     def test_the_table_has_before_after_and_change(self):
@@ -182,8 +180,7 @@ class Comparing(unittest.TestCase):
                             phases=dict(zip(rows.PHASES, (total, 0, 0, 0, 0, 0, 0)))) for total in (1000, 900)]
         name, head, before, after, change = compare.table([rows_of_two])
         self.assertEqual((name, head.split()[:2]), ("a x86-64 tree flat 320x240 in 320x24", ["total", "vertex"]))
-        self.assertEqual((before.split()[:3], after.split()[:3]), (["before", "1000", "1000"], ["after", "900", "900"]))
-        self.assertEqual(change.split(), ["%", "-10.0", "-10.0"])
+        self.assertEqual((before.split()[:3], after.split()[:3], change.split()), (["before", "1000", "1000"], ["after", "900", "900"], ["%", "-10.0", "-10.0"]))
 
     def test_a_base_that_is_none(self):
         for base, word in (("", "BASE=REVISION is wanted"), ("no-such-revision", "no such revision"), ("--all", "no such revision")):

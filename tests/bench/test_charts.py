@@ -85,8 +85,7 @@ class Pictures(unittest.TestCase):
         self.assertEqual(over(path), [])
 
     def test_a_chart_of_each_kind_for_each_model(self):
-        counted = [made_row(target, "zbuffer", shade, (i + 1) * 950000)
-                   for i, shade in enumerate(rows.SHADES) for target in (rows.HOST, *rows.GUESTS)]
+        counted = [made_row(target, "zbuffer", shade, (i + 1) * 950000) for i, shade in enumerate(rows.SHADES) for target in (rows.HOST, *rows.GUESTS)]
         counted += [made_row(rows.HOST, method, shade, 31950000) for shade in rows.SHADES for method in rows.METHODS[1:]]
         counted += [made_row(rows.HOST, "zbuffer", "flat", 10, model="bunny"), dict(made_row("rp2040", "tree", "scene", 5), phases=None)]
         paths = charts.draw_phases(counted, FOLDER)
@@ -115,8 +114,7 @@ class Pictures(unittest.TestCase):
 
     def test_a_point_stands_at_its_figures(self):
         path = os.path.join(FOLDER, "point.svg")
-        counted = [made_row(rows.HOST, "zbuffer", "flat", total, faces=faces, axis="faces")
-                   for faces, total in ((100, 1500000), (1000, 2000000), (10000, 10000000))]
+        counted = [made_row(rows.HOST, "zbuffer", "flat", total, faces=faces, axis="faces") for faces, total in ((100, 1500000), (1000, 2000000), (10000, 10000000))]
         charts.draw_curves(path, "title", "faces", counted)
         points = [(float(item.get("cx")), float(item.get("cy"))) for item in xml.etree.ElementTree.parse(path).getroot().iter(SVG + "circle")]
         left, top, right, bottom = charts.PLOT
