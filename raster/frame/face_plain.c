@@ -26,8 +26,9 @@ TUILE_INLINE void bucket_at(const tuile_t *t, face_bucket_t *bucket, uint32_t ro
     bucket->top = number * height;
 }
 
-/* flat and bytes, of a record, are constants where it matters. */
-TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count, bool flat, uint32_t bytes) {
+/* flat, bytes of a record and columns are constants where it matters. columns: a face without columns is left out. They are one in
+ * sixty, for which the z-buffer does not ask: such a face is soon drawn there, but other methods keep it among the rest. */
+TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count, bool flat, uint32_t bytes, bool columns) {
     const vertex_t *const v = cluster->vertices;
     const uint32_t base = (uint32_t)(v - t->vertices), before = t->record_count;
     const uint8_t material_base = (uint8_t)t->material_base;
@@ -62,7 +63,7 @@ TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned
             yc = yb, yb = ya, ya = y;
         }
         const int32_t bottom = yb > yc ? yb : yc, row = edge_row(ya);
-        if (row >= edge_row(bottom)) { /* one that has rows but no columns is told when it is drawn */
+        if (row >= edge_row(bottom) || (columns && edge_row(least3(xa, xb, xc)) >= edge_row(most3(xa, xb, xc)))) {
             outside++;
             continue;
         }
@@ -90,21 +91,21 @@ TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned
 }
 
 static TUILE_NOINLINE void bin_flat(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
-    bin_plain(t, cluster, count, true, sizeof(record_t));
+    bin_plain(t, cluster, count, true, sizeof(record_t), false);
 }
 
 static TUILE_NOINLINE void bin_smooth(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
-    bin_plain(t, cluster, count, false, sizeof(record_t));
+    bin_plain(t, cluster, count, false, sizeof(record_t), false);
 }
 
-static TUILE_NOINLINE void bin_larger(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
-    bin_plain(t, cluster, count, cluster->face_normals != NULL, sizeof(record_id_t));
+static TUILE_NOINLINE void bin_any(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
+    bin_plain(t, cluster, count, cluster->face_normals != NULL, t->record_bytes, t->config.method != TUILE_ZBUFFER);
 }
 
 bool face_bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
     if (!is_plain(t, cluster, count)) { return false; }
-    if (t->record_bytes != sizeof(record_t)) {
-        bin_larger(t, cluster, count);
+    if (t->config.method != TUILE_ZBUFFER || t->record_bytes != sizeof(record_t)) {
+        bin_any(t, cluster, count);
     } else if (cluster->face_normals) {
         bin_flat(t, cluster, count);
     } else {
