@@ -317,10 +317,11 @@ static void sorting_takes_two_bytes_a_face(void **state) {
     config.method = TUILE_PAINTER;
     free(frame_draw(&stage.view.scene, &config, 1 << 20, &order));
     assert_int_equal(order.splits, 0);
-    assert_int_equal(order.faces_binned, depth.faces_binned);
+    assert_in_range(order.faces_binned, 1, depth.faces_binned); /* the z-buffer keeps faces without columns, in 8 bytes each */
+    const uint32_t empty_bytes = 8 * (depth.faces_binned - order.faces_binned);
     /* Colours of one material by light: the z-buffer keeps them where there is memory to spare (frame/frame.c). */
     const uint32_t depth_bytes = TUILE_ALIGN64(2u * 120u * 90u) + TUILE_ALIGN8(2u * 256u + 2u);
-    assert_int_equal(order.peak_bytes, depth.peak_bytes - depth_bytes + 2 * (order.faces_binned + 1));
+    assert_int_equal(order.peak_bytes, depth.peak_bytes - depth_bytes - empty_bytes + 2 * (order.faces_binned + 1));
     const size_t enough = TUILE_ALIGN8((size_t)order.peak_bytes);
     free(frame_draw(&stage.view.scene, &config, enough, &again));
     assert_int_equal(again.passes, 1);
