@@ -131,7 +131,8 @@ TUILE_INLINE unsigned perspective(const transform_t *transform, const int16_t *q
             any |= VERTEX_ANY_BEYOND | (out->x == VERTEX_OUTSIDE);
             continue;
         }
-        const uint32_t r = fixed_reciprocal((uint32_t)w << octave.zeros);
+        /* The bit is there but for a model whose cluster reaches beyond its sphere: any picture will do then. */
+        const uint32_t r = fixed_reciprocal((uint32_t)w << octave.zeros | 0x80000000u);
         const int32_t x = (fixed_mul_high(coarse(&transform->x, q[0], q[1], q[2]), r) + octave.half) >> octave.shift;
         const int32_t y = (fixed_mul_high(coarse(&transform->y, q[0], q[1], q[2]), r) + octave.half) >> octave.shift;
         uint32_t depth = r >> octave.depth_shift;
