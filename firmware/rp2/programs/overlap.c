@@ -11,7 +11,7 @@
 #include "../../player.h"
 
 #define FRAMES 8u
-/* The last tile has nothing to overlap with, cheap tiles wait for the wire, and each costs a window; of 10 to 27 rows 22 add least.
+/* The last tile has nothing to overlap with, cheap tiles wait for the wire, and each costs a window; of 12 to 40 rows 22 add least.
  */
 #define TILE_ROWS 22u
 
