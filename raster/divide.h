@@ -1,5 +1,6 @@
 /* Quotients for machines that do not divide (Cortex-M0+), where a division takes the compiler's function 130 instructions: a table
- * of reciprocals gives nearly all of it, and a remainder or two the rest. All are exact; tests/test_divide.c walks all arguments.
+ * of reciprocals gives nearly all of it, and a remainder or two the rest. All are exact but slopes of sides, which need not be;
+ * tests/test_divide.c walks all arguments.
  */
 #ifndef TUILE_DIVIDE_H
 #define TUILE_DIVIDE_H
@@ -53,6 +54,28 @@ TUILE_INLINE uint32_t divide_ones_by_table(uint32_t d) {
     const uint32_t quotient = (uint32_t)inverse << 3;
     const int32_t rest = (int32_t)(UINT32_MAX - quotient * d), more = ((rest >> 8) * inverse) >> 21; /* |rest| < 2^25 */
     return divide_settle(quotient + (uint32_t)more, rest - more * (int32_t)d, (int32_t)d);
+}
+
+/* n / b by r, floor((2^31 - 1) / b): at most 4 too small before it is put right. */
+TUILE_INLINE uint32_t divide_by_reciprocal(uint32_t n, uint32_t b, int32_t r) {
+    const uint32_t quotient = (uint32_t)(fixed_mul_wide_by_halves((int32_t)(n >> 1), r) >> 30);
+    return divide_settle(quotient, (int32_t)(n - quotient * b), (int32_t)b);
+}
+
+/* floor(a / b), |a| < 2^46, 0 < b < 2^18, by 32-bit divisions: 14 bits of a at a time, so that remainders leave room for them. With
+ * r above 0, divide_by_reciprocal. */
+TUILE_INLINE int64_t divide_floor46_by_words(int64_t a, int32_t b, int32_t r) {
+    const uint32_t divisor = (uint32_t)b;
+    const uint64_t size = a < 0 ? ~(uint64_t)a : (uint64_t)a; /* floor(a / b) = -1 - floor((-1 - a) / b) */
+    const uint32_t high = (uint32_t)(size >> 14), quotient = r > 0 ? divide_by_reciprocal(high, divisor, r) : high / divisor;
+    const uint32_t low = (high - quotient * divisor) << 14 | ((uint32_t)size & 0x3fffu);
+    const uint64_t whole = ((uint64_t)quotient << 14) + (r > 0 ? divide_by_reciprocal(low, divisor, r) : low / divisor);
+    return (int64_t)(a < 0 ? ~whole : whole);
+}
+
+/* The same; r = floor((2^31 - 1) / b), which only some machines make use of. */
+TUILE_INLINE int64_t divide_floor46(int64_t a, int32_t b, int32_t r) {
+    return FIXED_WIDE_REGISTERS ? fixed_floor_div64(a, b) : divide_floor46_by_words(a, b, FIXED_BY_HALVES ? r : 0);
 }
 
 /* dx * 2^20 / dy, less than 1.25 too small or 1 too large. */

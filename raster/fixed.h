@@ -109,31 +109,6 @@ TUILE_INLINE uint64_t fixed_mul_signed_part(uint64_t a, int_fast32_t b) {
     return b < 0 ? 0 - fixed_mul_part_by_halves(a, (uint32_t)-b) : fixed_mul_part_by_halves(a, (uint32_t)b);
 }
 
-/* n / b by r, floor((2^31 - 1) / b): at most 4 too small before it is put right. */
-TUILE_INLINE uint32_t fixed_divide_by_reciprocal(uint32_t n, uint32_t b, int32_t r) {
-    uint32_t quotient = (uint32_t)(fixed_mul_wide_by_halves((int32_t)(n >> 1), r) >> 30), rest = n - quotient * b;
-    for (; rest >= b; rest -= b) {
-        quotient++;
-    }
-    return quotient;
-}
-
-/* floor(a / b), |a| < 2^46, 0 < b < 2^18, by 32-bit divisions: 14 bits of a at a time, so that remainders leave room for them. With
- * r above 0, fixed_divide_by_reciprocal. */
-TUILE_INLINE int64_t fixed_floor_div46_by_words(int64_t a, int32_t b, int32_t r) {
-    const uint32_t divisor = (uint32_t)b;
-    const uint64_t size = a < 0 ? ~(uint64_t)a : (uint64_t)a; /* floor(a / b) = -1 - floor((-1 - a) / b) */
-    const uint32_t high = (uint32_t)(size >> 14), quotient = r > 0 ? fixed_divide_by_reciprocal(high, divisor, r) : high / divisor;
-    const uint32_t low = (high - quotient * divisor) << 14 | ((uint32_t)size & 0x3fffu);
-    const uint64_t whole = ((uint64_t)quotient << 14) + (r > 0 ? fixed_divide_by_reciprocal(low, divisor, r) : low / divisor);
-    return (int64_t)(a < 0 ? ~whole : whole);
-}
-
-/* The same; r = floor((2^31 - 1) / b), which only some machines make use of. */
-TUILE_INLINE int64_t fixed_floor_div46(int64_t a, int32_t b, int32_t r) {
-    return FIXED_WIDE_REGISTERS ? fixed_floor_div64(a, b) : fixed_floor_div46_by_words(a, b, FIXED_BY_HALVES ? r : 0);
-}
-
 /* floor(a * b / 2^32), |a| <= 2^31: |result| < 2^31. */
 TUILE_INLINE int32_t fixed_mul_high(int_fast32_t a, uint32_t b) {
     if (FIXED_BY_HALVES) { /* b as a signed number, and 2^32 a where that is less than b */

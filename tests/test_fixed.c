@@ -119,7 +119,7 @@ static void divisions_by_words_round_down(void **state) {
         const int32_t b = random_one_in(&random, 8)
                               ? (1 << 18) - 1
                               : (int32_t)(random_bits(&random) % ((1u << random_between(&random, 1, 18)) - 1)) + 1;
-        const int64_t quotient = fixed_floor_div46_by_words(a, b, random_one_in(&random, 2) ? INT32_MAX / b : 0);
+        const int64_t quotient = divide_floor46_by_words(a, b, random_one_in(&random, 2) ? INT32_MAX / b : 0);
         assert_true(quotient * b <= a && a < (quotient + 1) * b);
     }
 }

@@ -4,7 +4,7 @@
 #ifndef TUILE_FILL_GRADIENT_H
 #define TUILE_FILL_GRADIENT_H
 
-#include "../fixed.h"
+#include "../divide.h"
 
 typedef struct gradient {
     int64_t dx, dy; /* Q.16 per pixel */
@@ -24,8 +24,8 @@ TUILE_INLINE gradient_t gradient_exact_short(int32_t c1, int32_t c2, int32_t x1,
                                              int32_t reciprocal, unsigned unit_bits) {
     const int64_t nx = fixed_mul_wide(c2, y1) - fixed_mul_wide(c1, y2); /* < 2^(46 - unit_bits) */
     const int64_t ny = fixed_mul_wide(c1, x2) - fixed_mul_wide(c2, x1);
-    return (gradient_t){fixed_floor_div46(fixed_shift_left64(nx, unit_bits), area, reciprocal),
-                        fixed_floor_div46(fixed_shift_left64(ny, unit_bits), area, reciprocal)};
+    return (gradient_t){divide_floor46(fixed_shift_left64(nx, unit_bits), area, reciprocal),
+                        divide_floor46(fixed_shift_left64(ny, unit_bits), area, reciprocal)};
 }
 
 TUILE_INLINE gradient_t gradient_small(int32_t c1, int32_t c2, int32_t x1, int32_t y1, int32_t x2, int32_t y2, int32_t reciprocal,

@@ -174,13 +174,13 @@ static TUILE_NOINLINE unsigned perspective_any(const transform_t *transform, con
 TUILE_NOINLINE unsigned vertex_stage_region(const transform_t *transform, const uint8_t *cluster, const int16_t *positions,
                                             const int8_t *normals, unsigned count, vertex_t *out) {
     vertex_octave_t octave;
+    const bool one_sided = transform->light_count <= 1 && !transform->two_sided;
     if (!transform->perspective) { return orthographic(transform, positions, normals, count, out); }
-    if (cluster == NULL || !octave_of_cluster(transform, &octave, cluster)) {
+    if (cluster == NULL || (normals && !one_sided) || !octave_of_cluster(transform, &octave, cluster)) {
         return perspective_any(transform, positions, normals, count, out);
     }
-    if (!normals) { return perspective(transform, positions, NULL, count, out, octave, false, true); }
-    if (transform->light_count > 1 || transform->two_sided) { return perspective_any(transform, positions, normals, count, out); }
-    return perspective(transform, positions, normals, count, out, octave, true, true);
+    return normals ? perspective(transform, positions, normals, count, out, octave, true, true)
+                   : perspective(transform, positions, NULL, count, out, octave, false, true);
 }
 
 bool vertex_fractions(const transform_t *transform, const int16_t *positions, const int8_t *fractions, unsigned count,
