@@ -10,7 +10,7 @@ import subprocess
 from rows import BenchError
 
 UNO = re.compile(r"(\w+) (\w+) \d+: (\d+) cycles, \d+ ms, \d+ bytes, ")
-RP2040 = re.compile(r"frame (\w+) (\w+) \d+ passes (\d+) ms ([\d.]+) asleep ([\d.]+) wire [\d.]+ cycles (\d+)$")
+RP2040 = re.compile(r"frame (\w+) (\w+) \d+ passes (\d+) ms ([\d.]+) asleep ([\d.]+) wire [\d.]+ cycles (\d+)( at [\d.]+)?$")
 
 
 def mean_rows(frames, target, size):

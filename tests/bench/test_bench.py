@@ -129,8 +129,8 @@ class Boards(unittest.TestCase):
         self.assertNotIn("asleep", row)
 
     def test_frames_of_the_rp2040(self):
-        text = ("board 240 240\nframe cube zbuffer 0 passes 1 ms 10.000 asleep 2.500 wire 14.924 cycles 1000000\n"
-                "frame cube zbuffer 1 passes 3 ms 20.000 asleep 0.000 wire 14.924 cycles 2000000\nstack 3428 of 8160\n")
+        text = ("board 240 240 at 245.004\nframe cube zbuffer 0 passes 1 ms 10.000 asleep 2.500 wire 14.924 cycles 1000000 at 262.595\n"
+                "frame cube zbuffer 1 passes 3 ms 20.000 asleep 0.000 wire 14.924 cycles 2000000 at 279.557\nstack 3428 of 8160 at 300.000\n")
         row, = boards.mean_rows(boards.rp2040_frames(text), "rp2040", "240x240")
         self.assertEqual((row["total"], row["asleep"], row["passes"]), (1500000, 125000, 2))
 
