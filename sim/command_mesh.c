@@ -36,6 +36,15 @@ static void tree_report_print(const mesh_tree_report_t *tree) {
                  tree->non_planar, tree->seam_corners, tree->dropped);
 }
 
+static bool is_power_of_two(unsigned side) { return side >= 2 && (side & (side - 1)) == 0; }
+
+/* Without a key, clamping and alpha, which no size and format makes fast (surface/textured.h). */
+static bool would_be_faster(const tuile_texture_t *texture) {
+    const bool format = texture->format == TUILE_TEXEL_PALETTE4 || texture->format == TUILE_TEXEL_GREY8;
+    return texture->flags == 0 && texture->format != TUILE_TEXEL_ARGB4444 &&
+           (format || !is_power_of_two(texture->width) || !is_power_of_two(texture->height));
+}
+
 /* What stands of surfaces in the model: textures with the materials that have them, vertex colours, a second key frame. */
 static void surface_report_print(const uint8_t *bytes, size_t size_bytes) {
     static const char *const formats[] = {"rgb565", "palette8", "palette4", "grey8", "argb4444"};
@@ -54,6 +63,7 @@ static void surface_report_print(const uint8_t *bytes, size_t size_bytes) {
             if (material.texture == t) { (void)printf(" %u (uv_bits %u)", m, material.uv_bits); }
         }
         (void)printf("\n");
+        if (would_be_faster(&texture)) { (void)printf("  --texture-fast: its small faces would be drawn several times as fast\n"); }
     }
     if (model.texcoords) { (void)printf("texture coordinates %u bytes\n", 4 * model.vertex_count); }
     if (model.colours) { (void)printf("vertex colours %u bytes\n", 4 * model.vertex_count); }

@@ -11,6 +11,7 @@ const char render_mesh_usage[] =
     "  --texture-format F       rgb565, palette8, palette4, grey8, argb4444 or auto (default): the smallest that shows all "
     "colours\n"
     "  --texture-size N         halves images until they are at most N texels wide and high\n"
+    "  --texture-fast           images as small faces are drawn fastest: sides to the nearest powers of two, palette8 or rgb565\n"
     "  --texture-key RRGGBB     texels of this colour are not there\n"
     "  --mips | --no-mips       with smaller copies of each image for faces far away (default), or without\n"
     "  --bilinear               marks textured materials to be interpolated; by default the nearest texel is taken\n"
@@ -39,6 +40,8 @@ bool render_mesh_option(mesh_options_t *mesh, options_t *options, const char *ar
         if (options_choice(options, &choice, formats)) { mesh->texture_format = (uint8_t)choice; }
     } else if (strcmp(argument, "--texture-size") == 0) {
         if (options_integer(options, &size, 1, TUILE_TEXTURE_MAX)) { mesh->texture_size = (uint16_t)size; }
+    } else if (strcmp(argument, "--texture-fast") == 0) {
+        mesh->texture_fast = true;
     } else if (strcmp(argument, "--texture-key") == 0) {
         take_key(mesh, options);
     } else if (strcmp(argument, "--mips") == 0 || strcmp(argument, "--no-mips") == 0) {

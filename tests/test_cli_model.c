@@ -38,6 +38,14 @@ static void textures_are_reported(void **state) {
     assert_non_null(
         strstr(out, "texture 0: 16x16 palette4, levels 1, s repeated, t repeated, keyed, 160 bytes, materials 0 (uv_bits 8)\n"));
     free(out);
+    put_image("image.png", 24, 40);
+    out = cli_good("mesh @/textured.obj -o @/t.tuile");
+    assert_non_null(strstr(out, "\n  --texture-fast: "));
+    free(out);
+    out = cli_good("mesh @/textured.obj -o @/t.tuile --texture-fast --no-mips");
+    assert_non_null(strstr(out, "texture 0: 16x32 rgb565, levels 1,"));
+    assert_null(strstr(out, "--texture-fast"));
+    free(out);
     out = cli_good("mesh @/textured.obj -o @/t.tuile --no-textures");
     assert_null(strstr(out, "texture"));
     free(out);
@@ -122,8 +130,9 @@ static void vertex_colours_are_reported(void **state) {
 }
 
 static void help_names_the_options(void **state) {
-    static const char *const options[] = {"--no-textures", "--texture-format", "--texture-size",   "--texture-key", "--mips",
-                                          "--no-mips",     "--bilinear",       "--vertex-colours", "--morph"};
+    static const char *const options[] = {"--no-textures",    "--texture-format", "--texture-size", "--texture-fast",
+                                          "--texture-key",    "--mips",           "--no-mips",      "--bilinear",
+                                          "--vertex-colours", "--morph"};
     char *mesh = cli_good("mesh --help"), *render = cli_good("render --help");
     (void)state;
     for (unsigned i = 0; i < CHECK_COUNT(options); i++) {

@@ -248,6 +248,65 @@ static void size_halves_until_it_fits(void **state) {
     drop(&texture);
 }
 
+static void fast_sides_are_the_nearest_powers_of_two(void **state) {
+    (void)state;
+    static const uint32_t sides[][3] = {/* of the image, the most that is asked for, of the texture */
+                                        {1, 0, 2},       {2, 0, 2},       {3, 0, 2},     {4, 0, 4},      {5, 0, 4},   {6, 0, 4},
+                                        {7, 0, 8},       {249, 0, 256},   {768, 0, 512}, {769, 0, 1024}, {250, 8, 8}, {15, 8, 8},
+                                        {2048, 0, 2048}, {1537, 0, 2048}, {100, 1, 1},   {250, 250, 128}};
+    for (unsigned i = 0; i < CHECK_COUNT(sides); i++) {
+        const mesh_options_t options = {.no_mips = true, .texture_fast = true, .texture_size = (uint16_t)sides[i][1]};
+        mesh_texture_t texture = make(image_of(sides[i][0], 4, NULL), &options);
+        if (texture.width != sides[i][2]) { fail_msg("%u at most %u: %u", sides[i][0], sides[i][1], texture.width); }
+        drop(&texture);
+        texture = make(image_of(4, sides[i][0], NULL), &options);
+        if (texture.height != sides[i][2]) { fail_msg("%u at most %u: %u high", sides[i][0], sides[i][1], texture.height); }
+        drop(&texture);
+    }
+}
+
+static void fast_texels_are_means_of_what_they_cover(void **state) {
+    (void)state;
+    /* 3 texels to 2: each has all of one and half of the middle one, (2 a + b) / 3. 7 to 8: texel i has 7 i / 8 ... 7 (i + 1) / 8.
+     */
+    static const uint8_t three[][4] = {OPAQUE(255, 0, 0), OPAQUE(0, 255, 0), OPAQUE(0, 0, 255)};
+    mesh_options_t options = of_format(TUILE_TEXEL_RGB565);
+    options.texture_fast = true;
+    mesh_texture_t texture = make(image_of(3, 1, three), &options);
+    assert_int_equal(texture.width, 2);
+    assert_int_equal(texture.height, 2);
+    for (unsigned row = 0; row < 8; row += 4) { /* 170 is 20.7 of 31, 85 is 21 of 63 */
+        assert_int_equal(texture.texels[row] | texture.texels[row + 1] << 8, 21 << 11 | 21 << 5);
+        assert_int_equal(texture.texels[row + 2] | texture.texels[row + 3] << 8, 21 << 5 | 21);
+    }
+    drop(&texture);
+    static const uint8_t seven[7][4] = {OPAQUE(0, 0, 0), OPAQUE(56, 56, 56), OPAQUE(0, 0, 0),      OPAQUE(0, 0, 0),
+                                        OPAQUE(0, 0, 0), OPAQUE(0, 0, 0),    OPAQUE(252, 252, 252)};
+    /* Texel 1 has 1/8 of texel 0 and 6/8 of texel 1, of 7/8: 48; texel 2 has 2/8 of 7/8 of texel 1: 16; 6 has 1/8: 36; 7 has 7/8.
+     */
+    static const uint8_t expected[8] = {0, 48, 16, 0, 0, 0, 36, 252};
+    options.texture_format = MESH_TEXELS_AUTO;
+    texture = make(image_of(7, 1, seven), &options);
+    assert_int_equal(texture.format, TUILE_TEXEL_PALETTE8);
+    assert_int_equal(texture.width, 8);
+    for (unsigned i = 0; i < 16; i++) {
+        const uint8_t *entry = texture.palette + 2 * texture.texels[i];
+        assert_int_equal((entry[0] | entry[1] << 8) >> 5 & 63, (expected[i % 8] * 63 + 127) / 255);
+    }
+    drop(&texture);
+}
+
+static void fast_images_too_large_are_refused_as_others(void **state) {
+    (void)state;
+    const mesh_options_t options = {.texture_fast = true};
+    image_t image = image_of(2049, 4, NULL);
+    mesh_texture_t texture;
+    sim_error_t error = {""};
+    assert_int_equal(texels_make(&texture, &image, 0, &options, "a.png", &error), -1);
+    assert_non_null(strstr(error.text, "2049x4"));
+    image_free(&image);
+}
+
 /* ---- keys ---------------------------------------------------------------------------------------------------------- */
 
 static void texels_of_the_key_are_the_key_and_no_others(void **state) {
@@ -362,6 +421,9 @@ int main(void) {
         cmocka_unit_test(levels_of_odd_sizes_weigh_by_area),
         cmocka_unit_test(levels_weigh_colours_by_alpha),
         cmocka_unit_test(size_halves_until_it_fits),
+        cmocka_unit_test(fast_sides_are_the_nearest_powers_of_two),
+        cmocka_unit_test(fast_texels_are_means_of_what_they_cover),
+        cmocka_unit_test(fast_images_too_large_are_refused_as_others),
         cmocka_unit_test(texels_of_the_key_are_the_key_and_no_others),
         cmocka_unit_test(the_key_in_argb4444_is_alpha),
         cmocka_unit_test(a_key_does_not_tint_levels_and_is_there_where_half_is),

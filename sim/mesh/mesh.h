@@ -66,7 +66,7 @@ typedef struct mesh {
 /* Frees what mesh owns and clears it; a cleared mesh may be freed again. */
 void mesh_free(mesh_t *mesh);
 
-/* How textures are stored; the rest is 1 + tuile_texel_t. AUTO: ARGB4444 for images with alpha, else PALETTE4 for at most 16
+/* How textures are stored; the rest is 1 + tuile_texel_t. AUTO, unless they are to be fast: ARGB4444 for images with alpha, else PALETTE4 for at most 16
  * colours, GREY8 where all is grey, PALETTE8 for at most 256 colours, RGB565. Colours are counted as RGB565 shows them. */
 typedef enum mesh_texels {
     MESH_TEXELS_AUTO = 0,
@@ -91,6 +91,7 @@ typedef struct mesh_options {
     uint8_t vertex_colours; /* mesh_vertex_colours_t */
     uint8_t texture_format; /* mesh_texels_t */
     uint16_t texture_size;  /* texels across or down at most, 1 ... TUILE_TEXTURE_MAX: halved until they fit; 0 = as they are */
+    bool texture_fast;      /* as small faces are drawn fastest: sides become powers of two, AUTO takes PALETTE8 or RGB565 */
     bool no_mips;           /* level 0 only */
     bool bilinear;          /* textured materials are to be interpolated */
     bool texture_keyed;     /* texels of this colour are not there: */

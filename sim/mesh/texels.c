@@ -1,6 +1,7 @@
 /* An image becomes smaller by halves: each texel is the mean of what it covers of the level above, by area (2x2 texels, or, where a
- * side is odd, parts of 3). Colours are weighted by alpha, so that what is not there does not tint its neighbours, and values are
- * averaged as they stand in the file. Levels are made of one another without rounding.
+ * side is odd, parts of 3). Where sides are to be powers of two, it is made so first, in the same way. Colours are weighted by
+ * alpha, so that what is not there does not tint its neighbours, and values are averaged as they stand in the file. Levels are made
+ * of one another without rounding.
  */
 #include "texels.h"
 
@@ -76,17 +77,17 @@ static int covered(uint32_t from, uint32_t to, uint32_t i, uint32_t *first, floa
     return count;
 }
 
-static bool halve(plane_t *plane) {
-    const uint32_t width = plane->width > 1 ? plane->width / 2 : 1, height = plane->height > 1 ? plane->height / 2 : 1;
-    plane_t half = {width, height, calloc((size_t)width * height, sizeof *half.at)};
-    if (!half.at) { return false; }
+/* Each side at least a third of what it was. */
+static bool resample(plane_t *plane, uint32_t width, uint32_t height) {
+    plane_t made = {width, height, calloc((size_t)width * height, sizeof *made.at)};
+    if (!made.at) { return false; }
     for (uint32_t y = 0; y < height; y++) {
         uint32_t top, left;
         float down[3], across[3];
         const int rows = covered(plane->height, height, y, &top, down);
         for (uint32_t x = 0; x < width; x++) {
             const int columns = covered(plane->width, width, x, &left, across);
-            float *to = half.at[(size_t)y * width + x];
+            float *to = made.at[(size_t)y * width + x];
             for (int i = 0; i < rows * columns; i++) {
                 const int row = i / columns, column = i % columns;
                 const float *from = plane->at[((size_t)top + (size_t)row) * plane->width + left + (size_t)column];
@@ -97,8 +98,21 @@ static bool halve(plane_t *plane) {
         }
     }
     free(plane->at);
-    *plane = half;
+    *plane = made;
     return true;
+}
+
+static bool halve(plane_t *plane) {
+    return resample(plane, plane->width > 1 ? plane->width / 2 : 1, plane->height > 1 ? plane->height / 2 : 1);
+}
+
+/* The nearest power of two, of two as near the lower; `most` at most, and 2 at least where that allows it. */
+static uint32_t power_of_two(uint32_t side, uint32_t most) {
+    uint32_t power = most < 2 ? 1 : 2;
+    while (2 * power <= most && 2 * side > 3 * power) {
+        power *= 2;
+    }
+    return power;
 }
 
 /* Halves up. */
@@ -129,6 +143,10 @@ static int make_levels(making_t *m, const image_t *image) {
         good = halve(&plane);
     }
     const bool large = good && (plane.width > TUILE_TEXTURE_MAX || plane.height > TUILE_TEXTURE_MAX);
+    if (good && !large && m->options->texture_fast) {
+        const uint32_t most = size < TUILE_TEXTURE_MAX ? size : TUILE_TEXTURE_MAX;
+        good = resample(&plane, power_of_two(plane.width, most), power_of_two(plane.height, most));
+    }
     good = good && (large || add_level(m, &plane));
     while (good && !large && !m->options->no_mips && (plane.width > 1 || plane.height > 1)) {
         good = halve(&plane) && add_level(m, &plane);
@@ -224,6 +242,7 @@ static size_t count_colours(const making_t *m) {
 static uint8_t choose_format(const making_t *m) {
     if (m->alpha) { return TUILE_TEXEL_ARGB4444; }
     const size_t colours = count_colours(m);
+    if (m->options->texture_fast) { return colours <= 256 ? TUILE_TEXEL_PALETTE8 : TUILE_TEXEL_RGB565; }
     return colours <= 16    ? TUILE_TEXEL_PALETTE4
            : m->grey        ? TUILE_TEXEL_GREY8
            : colours <= 256 ? TUILE_TEXEL_PALETTE8
