@@ -178,9 +178,10 @@ check: $(TESTS) $(GPIOD2_TESTS) $(FUZZERS) $(TUILE) $(SPIDER) $(BUNNY_6000)
 	@$(call RUN_TESTS,$(FUZZERS))
 	@$(call RUN_TESTS,$(TESTS) $(GPIOD2_TESTS))
 
-test: ## builds and passes everything: gcc, emulated boards, instruction counts, sanitizers, clang, a real kernel
+test: ## builds and passes everything: gcc, emulated boards, predicted pace, instruction counts, sanitizers, clang, a real kernel
 	$(MAKE) --no-print-directory check objects
 	$(MAKE) --no-print-directory test-firmware
+	$(MAKE) --no-print-directory predict-check-pico predict-check-uno
 	$(MAKE) --no-print-directory test-bench bench-budget
 	$(MAKE) --no-print-directory check VARIANT=asan
 	$(MAKE) --no-print-directory test-tsan
