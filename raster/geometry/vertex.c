@@ -10,8 +10,10 @@
 
 #include "vertex.h"
 
+#include "../assembly.h"
 #include "../divide.h"
 #include "model.h"
+#include "vertex_thumb.h"
 
 static vertex_t outside(uint8_t light) { return (vertex_t){VERTEX_OUTSIDE, 0, light}; }
 
@@ -76,14 +78,6 @@ TUILE_INLINE uint8_t next_light(const transform_t *transform, const int8_t **nor
     *normal = n + 3;
     return vertex_light(transform, n[0], n[1], n[2]);
 }
-
-/* What all W with the same number of leading zeros share, where they are fast and strictly inside far plane: first <= W < first +
- * range. Neighbours mostly have it in common. */
-typedef struct vertex_octave {
-    uint32_t first, range;
-    unsigned zeros, shift, depth_shift;
-    int32_t half;
-} vertex_octave_t;
 
 /* False: W is to be projected from fine coordinates. */
 TUILE_INLINE bool octave_of(const transform_t *transform, vertex_octave_t *octave, int32_t w) {
@@ -179,6 +173,7 @@ TUILE_NOINLINE unsigned vertex_stage_region(const transform_t *transform, const 
     if (cluster == NULL || (normals && !one_sided) || !octave_of_cluster(transform, &octave, cluster)) {
         return perspective_any(transform, positions, normals, count, out);
     }
+    if (ASSEMBLY_THUMB) { return vertex_thumb(transform, positions, normals, count, out, &octave); }
     return normals ? perspective(transform, positions, normals, count, out, octave, true, true)
                    : perspective(transform, positions, NULL, count, out, octave, false, true);
 }

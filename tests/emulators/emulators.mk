@@ -102,7 +102,7 @@ mps2_objects = $(call firmware_linked,$(1)) $(FIRMWARE_MAIN_frames:%.c=$(FIRMWAR
 $(foreach board,blackpill pico2,$(eval $(call mps2_board,$(board),$(call mps2_objects,$(board)))))
 
 # ---- all ----------------------------------------------------------------------------------------------------------------
-.PHONY: emulate-lm3s6965evb emulate-sifive_e test-firmware-checks test-firmware-harness test-firmware-input
+.PHONY: emulate-lm3s6965evb emulate-sifive_e test-firmware-checks test-firmware-harness test-firmware-input test-firmware-twins
 test-firmware-checks: $(BUILD)/need/arm $(BUILD)/need/emulators # that the checks of images find what they look for
 	@$(PYTHON) $(EMULATORS)/test_checks.py $(FIRMWARE)/checks
 test-firmware-harness: $(LM3S)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount.so $(BUILD)/need/emulators # that the harness tells what goes wrong
@@ -111,7 +111,12 @@ test-firmware-harness: $(LM3S)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount
 test-firmware-input: $(TUILE) firmware-lm3s6965evb firmware-sifive_e $(BUILD)/need/avr $(BUILD)/need/emulators # that wrong input is told
 	@$(PYTHON) $(EMULATORS)/test_input.py $(BUILD)
 
-test-firmware: test-firmware-checks test-firmware-harness test-firmware-input $(BOARDS:%=test-firmware-%) ## boards in emulators: frames equal to the simulator's, faults, sizes, stack
+# $(call TWINS,NAME,SOURCES,WRAPPED)
+TWINS = @sh $(EMULATORS)/twins.sh $(FIRMWARE)/twins $(1) '$(2)' '$(3)' cortex-m3 cortex-m4 cortex-m33
+test-firmware-twins: $(BUILD)/need/bench-targets # that assembly does to the byte what its C twin does
+	$(call TWINS,vertex,raster/geometry/vertex.c raster/geometry/vertex_thumb.c,vertex_thumb)
+
+test-firmware: test-firmware-checks test-firmware-harness test-firmware-input test-firmware-twins $(BOARDS:%=test-firmware-%) ## boards in emulators: frames equal to the simulator's, faults, sizes, stack
 
 emulate-%:
 	@$(call no_board,$* in an emulator,$(BOARDS) uno)
