@@ -3,7 +3,9 @@
  */
 #include "../tune.h"
 
+#include "../assembly.h"
 #include "../features.h"
+#include "smalls_thumb.h"
 #include "zbuffer_textured.h"
 
 static size_t zbuffer_tile_bytes(const tuile_config_t *config) {
@@ -16,7 +18,9 @@ static void zbuffer_clear(tuile_t *t) {
 }
 
 void smalls_plain(tuile_t *t, walk_t *walk, uint32_t limit) {
-    if (t->span_kind == SPAN_GOURAUD) {
+    if (ASSEMBLY_THUMB && t->span_kind == SPAN_GOURAUD) {
+        smalls_thumb(t, walk, limit);
+    } else if (t->span_kind == SPAN_GOURAUD) {
         smalls_draw(t, walk, limit, SMALL_GOURAUD);
     } else {
         smalls_draw(t, walk, limit, SMALL_FLAT);

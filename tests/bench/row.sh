@@ -12,9 +12,12 @@ shift 9
 method=$1
 width=${size%x*} height=${size#*x}
 mkdir -p "$out"
-# Which lines of fill/small.h are rows and pixels: see there.
-small=$(awk '/^\/\* ---- rows and pixels/ { first = NR } /^\/\* ---- set-up/ { last = NR } END { print first "-" last }' \
-    "$ROOT/raster/fill/small.h")
+# Which lines of fill/small.h, and of its twin in assembly where there is one, are rows and pixels: see there.
+rows_of() {
+    awk '/^ *\/\* ---- rows and pixels/ { first = NR } /^ *\/\* ---- set-up/ { last = NR } END { print first "-" last }' "$1"
+}
+small=$(rows_of "$ROOT/raster/fill/small.h")
+thumb=$(rows_of "$ROOT/raster/fill/small_thumb.c" 2>/dev/null || true)
 
 if [ "$target" = x86-64 ]; then
     count "$out" "$program" "$model" "$width" "$height" "${tile%x*}" "${tile#*x}" "$shade" "$memory" "$method" || exit $?
@@ -33,7 +36,7 @@ fi
 frames=$(figure "$out" frames)
 awk -v frames="$frames" '{ self[$2] += $1 } END { for (f in self) printf "%12.0f %s\n", self[f] / frames, f }' "$out/lines.txt" |
     sort -rn >"$out/functions.txt"
-awk -v frames="$frames" -v small="$small" -f "$here/phases.awk" "$out/lines.txt" | {
+awk -v frames="$frames" -v small="$small" -v thumb="$thumb" -f "$here/phases.awk" "$out/lines.txt" | {
     read -r total vertex cull setup span clear resolve helpers ours
     [ "$total" -gt 0 ] || { echo "nothing was counted" >&2; exit 1; }
     echo "faces $(figure "$out" faces) frames $frames passes $(figure "$out" passes) vertices $(figure "$out" vertices)" \

@@ -3,7 +3,7 @@
     stack.py IMAGE FOLDER --tools PREFIX --calls FILE [--room BYTES] [--entry NAME] [--without NAME ...]
 
 FOLDER holds the .ci files of the image's objects; those of objects NAME, which belong to other images, are left out. Only functions that are in the image count. Functions that gcc has not compiled
-(libgcc's) are read from the disassembly. A call through a pointer goes to every function that the sources assign to a field of that
+(libgcc's), and naked ones, are read from the disassembly. A call through a pointer goes to every function that the sources assign to a field of that
 name, `.field = function` or `->field = function`; FILE says so where that is not enough, a line each:
 
     CALLER: TARGET TARGET ...    what this function's pointers can be, in place of what the sources say; * stands for any letters
@@ -202,6 +202,11 @@ def main():
     for name, (size, calls) in in_image.items():
         if not any(base(other) == base(name) for other in graph.bytes):
             graph.bytes[name], graph.calls[name] = size, calls
+    for name in graph.bytes:
+        size, calls = in_image.get(base(name), (0, ()))
+        if size and graph.bytes[name] == 0:  # naked: gcc has seen nothing of what it is made of
+            graph.bytes[name] = size
+            graph.calls[name] |= set(calls)
     targets, depths = read_calls(arguments.calls)
     resolve(graph, read_sources(), targets, present)
     for name in graph.calls:

@@ -37,6 +37,11 @@ void reset(void) { seen = raster(seen) + hal(seen) + again(seen); }
 DYNAMIC = MAIN + """static int grows(int a) { volatile char room[a]; room[a - 1] = 1; return room[0]; }
 void reset(void) { seen = raster(seen) + hal(seen) + grows(seen); }
 """
+# 36 + 164 bytes, and 100 of what it calls.
+NAKED = MAIN + """void beyond(void); void beyond(void) { volatile char room[100]; room[0] = 1; }
+__attribute__((naked, noipa)) void bare(void) { __asm__("push {r4-r11, lr}\\n sub sp, sp, #164\\n bl beyond\\n add sp, sp, #164\\n pop {r4-r11, pc}"); }
+void reset(void) { seen = raster(seen) + hal(seen); bare(); }
+"""
 
 failed = False
 
@@ -126,6 +131,9 @@ def check_stacks(folder):
     expect("recursion of a depth", stack_check(recursion, write(folder, "depth", "recursion again 10\n"), "--room", "400"), None)
     expect("recursion of a depth, in too little room", stack_check(recursion, write(folder, "depth", "recursion again 10\n"), "--room", "200"), "more")
     expect("an array of any length", stack_check(build(folder, "dynamic", DYNAMIC), nothing), "no bound")
+    naked = build(folder, "naked", NAKED)
+    expect("assembly", stack_check(naked, nothing, "--room", "400"), None)
+    expect("assembly in too little room for what it calls", stack_check(naked, nothing, "--room", "300"), "more than the 300")
     expect("no entry", stack_check(deep, nothing, "--entry", "nobody"), "there is no nobody")
 
 

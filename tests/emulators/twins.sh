@@ -17,7 +17,7 @@ for target; do
         object=$folder/$(echo "$source" | tr / _ | sed 's/c$/o/')
         sh "$qemu_folder/cc.sh" "$target" -c "$source" -o "$object"
         sh "$qemu_folder/cc.sh" "$target" -DTUILE_ASSEMBLY=0 -c "$source" -o "$object.plain"
-        "${prefix}nm" "$object.plain" | awk '$2 == "T" { print $3, "c_" $3 }' >"$folder/names"
+        "${prefix}nm" "$object.plain" | awk '$2 ~ /^[TRD]$/ { print $3, "c_" $3 }' >"$folder/names"
         "${prefix}objcopy" --redefine-syms="$folder/names" "$object.plain" "$object.c.o"
         objects="$objects $object $object.c.o"
     done

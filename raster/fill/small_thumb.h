@@ -1,0 +1,31 @@
+/* Small triangles of a list in assembly: fill/small_thumb.c. Their C twin is smalls_draw of visibility/rows.h. */
+#ifndef TUILE_FILL_SMALL_THUMB_H
+#define TUILE_FILL_SMALL_THUMB_H
+
+#include "../frame/frame.h"
+#include "small.h"
+
+/* What the loop reads, and where it has come to. */
+typedef struct small_run {
+    uint32_t limit; /* the loop ends at the record of this number, or at the end of the list */
+    const uint8_t *arena_end;
+    const vertex_t *vertices;
+    int32_t known;   /* the material of those that are known to be short and inside the tile's columns, else -1 */
+    int32_t top;     /* 16 * the tile's first row + 8 */
+    int32_t height;  /* rows */
+    uint16_t *depth; /* of the pixel in the tile's first row and in column 0 of the window */
+    int32_t stride;  /* bytes */
+    const uint16_t *ramp;
+    ptrdiff_t colour;    /* from a pixel's depth to its colour, bytes, less 2 */
+    int32_t material;    /* of the ramp */
+    int32_t left, width; /* small_tile_t */
+    uint32_t list;       /* number + 1 of the next face's record */
+    uint16_t *end;       /* where the number of the next face that reaches below the tile is put */
+    uint32_t count;      /* faces that were drawn */
+} small_run_t;
+
+/* Draws faces from run->list on with light at the corners, until it meets one that it leaves to the caller: behind the limit, no
+ * triangle, of another material, not short, or not inside the tile's columns. */
+void small_thumb_gouraud(small_run_t *run);
+
+#endif
