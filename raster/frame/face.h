@@ -31,6 +31,18 @@ TUILE_INLINE void face_extend(const tuile_t *t, record_t *record, uint32_t id) {
     if (TUILE_HAS(LIGHTS) && TUILE_UNLIKELY(t->coloured && t->config.shade == TUILE_FLAT)) { frame_lights_flat(t, surface); }
 }
 
+/* After the `count` faces of a plain cluster: number: records that there are now; longest: all bits of the sides' lengths. */
+TUILE_INLINE void face_binned(tuile_t *t, uint32_t count, uint32_t number, uint32_t degenerate, uint32_t outside,
+                              uint32_t longest) {
+    if (longest >= SHORT_SIDE) { t->small = false; }
+    const uint32_t binned = number - t->record_count;
+    t->record_count = number;
+    t->stats.faces_binned += binned;
+    t->stats.faces_degenerate += degenerate;
+    t->stats.faces_outside += outside;
+    t->stats.faces_back += count - binned - degenerate - outside;
+}
+
 /* Records for the triangles of a cluster that lies within the region, seen from the front only, where there is room for all of them
  * at once. False: it is not such a cluster, and nothing was done. */
 bool face_bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count);

@@ -3,7 +3,9 @@
  */
 #include "../tune.h"
 
+#include "../assembly.h"
 #include "face.h"
+#include "face_thumb.h"
 
 static bool is_plain(const tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
     return cluster->bytes[CLUSTER_AT_KIND] == MODEL_CLUSTER_TRIANGLES && !cluster->any_beyond && t->sides == SIDE_FRONT &&
@@ -81,13 +83,7 @@ TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned
         *bucket.list = (uint16_t)++number;
         if (larger) { face_extend(t, record, cluster->first_face + (uint32_t)(face - cluster->faces) / 4); }
     }
-    if (longest >= SHORT_SIDE) { t->small = false; }
-    const uint32_t binned = number - before;
-    t->record_count = number;
-    t->stats.faces_binned += binned;
-    t->stats.faces_degenerate += degenerate;
-    t->stats.faces_outside += outside;
-    t->stats.faces_back += count - binned - degenerate - outside;
+    face_binned(t, count, number, degenerate, outside, longest);
 }
 
 static TUILE_NOINLINE void bin_flat(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
@@ -104,6 +100,7 @@ static TUILE_NOINLINE void bin_any(tuile_t *t, const frame_cluster_t *cluster, u
 
 bool face_bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
     if (!is_plain(t, cluster, count)) { return false; }
+    if (ASSEMBLY_THUMB && face_thumb(t, cluster, count)) { return true; }
     if (t->config.method != TUILE_ZBUFFER || t->record_bytes != sizeof(record_t)) {
         bin_any(t, cluster, count);
     } else if (cluster->face_normals) {

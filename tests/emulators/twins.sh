@@ -24,7 +24,7 @@ for target; do
     wraps=
     for function in $wrapped; do wraps="$wraps -Wl,--wrap=$function"; done
     # shellcheck disable=SC2086 # words
-    sh "$qemu_folder/cc.sh" "$target" -fno-tree-loop-distribute-patterns -nostdlib -nostartfiles -Wl,--gc-sections -Wl,-T,"$qemu_folder/guest.ld" \
+    sh "$qemu_folder/cc.sh" "$target" -Wall -Wextra -Werror -fno-tree-loop-distribute-patterns -nostdlib -nostartfiles -Wl,--gc-sections -Wl,-T,"$qemu_folder/guest.ld" \
         -Wl,--defsym=FLASH="$flash" -Wl,--defsym=RAM="$ram" -DGUEST_MODEL="\"$here/twins.h\"" $wraps "$qemu_folder/$start" tests/emulators/twins.c \
         "tests/emulators/twins_$name.c" tests/support/random.c $objects -lgcc -o "$folder/twins.elf"
     code=0
