@@ -32,28 +32,55 @@ typedef struct textured {
 } textured_t;
 
 /* Constants of the loops over pixels. A compiler that knew them would make most of them anew for each pixel, in more than one
- * instruction; this one finds them in registers or on the stack. */
-typedef struct textured_constants {
-    uint32_t fold, green, round_red_blue, round_green;
-    uint64_t spread, fields, round, lit_fields, gather;
-} textured_constants_t;
-
+ * instruction; this one finds them in registers or on the stack. x86-64 has few registers, and instructions that take a number from
+ * memory: there they lie where, for all that the compiler knows, a pixel's store might change them, so that it does not load them
+ * into registers that are not there. */
 #if defined(__GNUC__)
 #define TEXTURED_UNKNOWN(x) __asm__("" : "+r"(x))
 #else
 #define TEXTURED_UNKNOWN(x) ((void)0)
 #endif
 
+#if defined(__GNUC__) && defined(__x86_64__)
+typedef uint64_t __attribute__((may_alias)) textured_long_t;
+typedef uint32_t __attribute__((may_alias)) textured_word_t;
+#else
+typedef uint64_t textured_long_t;
+typedef uint32_t textured_word_t;
+#endif
+
+typedef struct textured_numbers {
+    textured_word_t fold, green, round_red_blue, round_green;
+    textured_long_t spread, fields, round, lit_fields, gather;
+} textured_numbers_t;
+
+#define TEXTURED_NUMBERS                                                                                                      \
+    {                                                                                                                         \
+        .fold = 1u << TEXTURED_FRACTION | 1u, .green = 0x7e0, .round_red_blue = 0x10020, .round_green = 0x400,                \
+        .spread = UINT64_C(1) << 32 | 1u, .fields = UINT64_C(0x7e0) << 32 | 0xf81f, .round = UINT64_C(0x400) << 32 | 0x10020, \
+        .lit_fields = UINT64_C(0x7e0) << 38 | UINT32_C(0xf81f) << 6, .gather = UINT64_C(1) << 42 | 1u << 10                   \
+    }
+
+#if defined(__GNUC__) && defined(__x86_64__)
+typedef struct textured_constants {
+    const textured_numbers_t *numbers;
+} textured_constants_t;
+
+#define TEXTURED_NUMBER(c, name) ((c)->numbers->name)
+
 TUILE_INLINE textured_constants_t textured_constants(void) {
-    textured_constants_t c = {.fold = 1u << TEXTURED_FRACTION | 1u,
-                              .green = 0x7e0,
-                              .round_red_blue = 0x10020,
-                              .round_green = 0x400,
-                              .spread = UINT64_C(1) << 32 | 1u,
-                              .fields = UINT64_C(0x7e0) << 32 | 0xf81f,
-                              .round = UINT64_C(0x400) << 32 | 0x10020,
-                              .lit_fields = UINT64_C(0x7e0) << 38 | UINT32_C(0xf81f) << 6,
-                              .gather = UINT64_C(1) << 42 | 1u << 10};
+    static const textured_numbers_t numbers = TEXTURED_NUMBERS;
+    textured_constants_t c = {&numbers};
+    TEXTURED_UNKNOWN(c.numbers);
+    return c;
+}
+#else
+typedef textured_numbers_t textured_constants_t;
+
+#define TEXTURED_NUMBER(c, name) ((c)->name)
+
+TUILE_INLINE textured_constants_t textured_constants(void) {
+    textured_constants_t c = TEXTURED_NUMBERS;
     if (FIXED_WIDE_REGISTERS) {
         TEXTURED_UNKNOWN(c.fold);
         TEXTURED_UNKNOWN(c.spread);
@@ -71,11 +98,13 @@ TUILE_INLINE textured_constants_t textured_constants(void) {
     }
     return c;
 }
+#endif
 
 /* Where a texel lies: its index. */
 TUILE_INLINE uint32_t textured_index(uint32_t at, uint32_t mask, uint32_t shift, const textured_constants_t *c) {
     const uint32_t whole = at & mask;
-    return (FIXED_WIDE_REGISTERS || FIXED_BY_HALVES ? whole * c->fold : whole + (whole << TEXTURED_FRACTION)) >> shift;
+    return (FIXED_WIDE_REGISTERS || FIXED_BY_HALVES ? whole * TEXTURED_NUMBER(c, fold) : whole + (whole << TEXTURED_FRACTION)) >>
+           shift;
 }
 
 /* light: Q8.24, below 254. biased: with TEXTURED_BIAS added to it. */
@@ -87,16 +116,17 @@ TUILE_INLINE uint16_t textured_swapped(uint16_t sample) { return (uint16_t)(samp
 
 /* Red and blue in one product, green in another. */
 TUILE_INLINE uint16_t textured_lit_by_words(uint32_t texel, uint32_t levels, const textured_constants_t *c, bool swap) {
-    const uint32_t green = texel & c->green, red_blue = texel - green;
-    const uint32_t a = red_blue * levels + c->round_red_blue, b = green * levels + c->round_green;
+    const uint32_t green = texel & TEXTURED_NUMBER(c, green), red_blue = texel - green;
+    const uint32_t a = red_blue * levels + TEXTURED_NUMBER(c, round_red_blue), b = green * levels + TEXTURED_NUMBER(c, round_green);
     const uint16_t sample = (uint16_t)((a ^ ((a ^ b) & 0x1f800u)) >> 6);
     return swap ? textured_swapped(sample) : sample;
 }
 
 /* All in one of 64 bits, green 32 above; a last product brings the fields together in the upper 16. */
 TUILE_INLINE uint16_t textured_lit_by_long_words(uint32_t texel, uint32_t levels, const textured_constants_t *c, bool swap) {
-    const uint64_t fields = ((texel * c->spread) & c->fields) * levels + c->round;
-    const uint64_t above = (fields & c->lit_fields) * c->gather;
+    const uint64_t fields =
+        ((texel * TEXTURED_NUMBER(c, spread)) & TEXTURED_NUMBER(c, fields)) * levels + TEXTURED_NUMBER(c, round);
+    const uint64_t above = (fields & TEXTURED_NUMBER(c, lit_fields)) * TEXTURED_NUMBER(c, gather);
 #if defined(__GNUC__)
     if (swap) { return (uint16_t)__builtin_bswap64(above); }
 #endif

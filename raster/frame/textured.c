@@ -52,7 +52,7 @@ bool textured_start(tuile_t *t, textured_t *textured, const record_t *record, in
         triangle->shade += (uint64_t)record->light << 24;
     }
     if (TUILE_UNLIKELY(!triangle->is_short)) { return false; }
-    const textured_face_t face = textured_face(t, v0, v1, v2, v1->x - v0->x, v1->y - v0->y, v2->x - v0->x, v2->y - v0->y);
+    const textured_face_t face = textured_face(t, record, v0, v1, v2, v1->x - v0->x, v1->y - v0->y, v2->x - v0->x, v2->y - v0->y);
     if (!textured_map_at_origin(&textured->map, &t->textured_last, &face, v0->x, v0->y)) { return false; }
     triangle->value = 0;
     triangle->head.size_bytes = (sizeof(textured_t) + 7u) & ~7u;

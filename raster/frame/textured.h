@@ -14,10 +14,10 @@ TUILE_INLINE bool textured_fits(tuile_t *t, const record_t *record) {
 }
 
 /* The triangle with short sides of a record, where textured_fits: surface/textured.h. x1 ... y2: from the first corner. */
-TUILE_INLINE textured_face_t textured_face(const tuile_t *t, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2, int32_t x1,
-                                           int32_t y1, int32_t x2, int32_t y2) {
-    const int16_t *c0 = (const int16_t *)(const void *)t->textured_texcoords + 2 * (v0 - t->vertices), *c1 = c0 + 2 * (v1 - v0),
-                  *c2 = c0 + 2 * (v2 - v0);
+TUILE_INLINE textured_face_t textured_face(const tuile_t *t, const record_t *record, const vertex_t *v0, const vertex_t *v1,
+                                           const vertex_t *v2, int32_t x1, int32_t y1, int32_t x2, int32_t y2) {
+    const int16_t *c0 = (const int16_t *)(const void *)t->textured_texcoords + 2 * (size_t)record->v0, *c1 = c0 + 2 * record->d1,
+                  *c2 = c0 + 2 * record->d2;
     return (textured_face_t){.x1 = x1,
                              .y1 = y1,
                              .x2 = x2,

@@ -232,7 +232,7 @@ TUILE_INLINE bool small_prepare(tuile_t *t, const record_t *record, uint32_t num
         }
         const small_corners_t *c = &face->corners;
         const textured_face_t textured =
-            textured_face(t, v0, v1, v2, (int32_t)c->x1, (int32_t)c->y1, (int32_t)c->x2, (int32_t)c->y2);
+            textured_face(t, record, v0, v1, v2, (int32_t)c->x1, (int32_t)c->y1, (int32_t)c->x2, (int32_t)c->y2);
         if (!textured_map_make(&paint->map, &t->textured_last, &textured, (int32_t)face->to_x, (int32_t)face->to_y & 15)) {
             return false;
         }
