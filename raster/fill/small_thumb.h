@@ -10,22 +10,25 @@ typedef struct small_run {
     uint32_t limit; /* the loop ends at the record of this number, or at the end of the list */
     const uint8_t *arena_end;
     const vertex_t *vertices;
-    int32_t known;   /* the material of those that are known to be short and inside the tile's columns, else -1 */
-    int32_t top;     /* 16 * the tile's first row + 8 */
-    int32_t height;  /* rows */
-    uint16_t *depth; /* of the pixel in the tile's first row and in column 0 of the window */
-    int32_t stride;  /* bytes */
-    const uint16_t *ramp;
-    ptrdiff_t colour;    /* from a pixel's depth to its colour, bytes, less 2 */
-    int32_t material;    /* of the ramp */
-    int32_t left, width; /* small_tile_t */
-    uint32_t list;       /* number + 1 of the next face's record */
-    uint16_t *end;       /* where the number of the next face that reaches below the tile is put */
-    uint32_t count;      /* faces that were drawn */
+    int32_t known;  /* the material, where faces are known to be short and inside the tile's columns and there is a ramp; else -1 */
+    int32_t top;    /* 16 * the tile's first row + 8 */
+    int32_t height; /* rows */
+    uint16_t *depth;       /* of the pixel in the tile's first row and in column 0 of the window */
+    int32_t stride;        /* bytes */
+    uint32_t record_bytes; /* with light: not read, those of record_t */
+    const uint16_t *ramp;  /* by the light of pixels, or flat of records; flat: NULL: `given` is the colour */
+    ptrdiff_t colour;      /* from a pixel's depth to its colour, bytes, less 2 */
+    int32_t material;      /* of the ramp */
+    int32_t left, width;   /* small_tile_t */
+    uint32_t given;
+    uint32_t list;  /* number + 1 of the next face's record */
+    uint16_t *end;  /* where the number of the next face that reaches below the tile is put */
+    uint32_t count; /* faces that were drawn */
 } small_run_t;
 
-/* Draws faces from run->list on with light at the corners, until it meets one that it leaves to the caller: behind the limit, no
- * triangle, of another material, not short, or not inside the tile's columns. */
+/* Draws faces from run->list on, with light at the corners or flat, until it meets one that it leaves to the caller: behind the
+ * limit, no triangle, of another material, whose colour in the ramp is 0, not short, or not inside the tile's columns. */
 void small_thumb_gouraud(small_run_t *run);
+void small_thumb_flat(small_run_t *run);
 
 #endif

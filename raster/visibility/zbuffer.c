@@ -17,13 +17,20 @@ static void zbuffer_clear(tuile_t *t) {
     frame_fill_words(t->tile.depth, 0, (size_t)t->tile.stride_px * (size_t)(t->tile.bottom - t->tile.top) * sizeof(uint16_t));
 }
 
-void smalls_plain(tuile_t *t, walk_t *walk, uint32_t limit) {
-    if (ASSEMBLY_THUMB && t->span_kind == SPAN_GOURAUD) {
-        smalls_thumb(t, walk, limit);
-    } else if (t->span_kind == SPAN_GOURAUD) {
-        smalls_draw(t, walk, limit, SMALL_GOURAUD);
+/* By kind, which is a constant. */
+TUILE_INLINE void smalls_of(tuile_t *t, walk_t *walk, uint32_t limit, small_kind_t kind) {
+    if (ASSEMBLY_THUMB) {
+        smalls_thumb(t, walk, limit, kind);
     } else {
-        smalls_draw(t, walk, limit, SMALL_FLAT);
+        smalls_draw(t, walk, limit, kind);
+    }
+}
+
+void smalls_plain(tuile_t *t, walk_t *walk, uint32_t limit) {
+    if (t->span_kind == SPAN_GOURAUD) {
+        smalls_of(t, walk, limit, SMALL_GOURAUD);
+    } else {
+        smalls_of(t, walk, limit, SMALL_FLAT);
     }
 }
 

@@ -12,12 +12,10 @@ shift 9
 method=$1
 width=${size%x*} height=${size#*x}
 mkdir -p "$out"
-# Which lines of fill/small.h, and of its twin in assembly where there is one, are rows and pixels: see there.
-rows_of() {
-    awk '/^ *\/\* ---- rows and pixels/ { first = NR } /^ *\/\* ---- set-up/ { last = NR } END { print first "-" last }' "$1"
-}
-small=$(rows_of "$ROOT/raster/fill/small.h")
-thumb=$(rows_of "$ROOT/raster/fill/small_thumb.c" 2>/dev/null || true)
+# Which lines of fill/small.h are rows and pixels: see there; and which statements of its twin in assembly, where there is one.
+small=$(awk '/^\/\* ---- rows and pixels/ { first = NR } /^\/\* ---- set-up/ { last = NR } END { print first "-" last }' \
+    "$ROOT/raster/fill/small.h")
+thumb=$(awk '/^ *__asm__ volatile\(ROWS/ { printf "%s%s", separator, NR; separator = " " }' "$ROOT/raster/fill/small_thumb.c" 2>/dev/null || true)
 
 if [ "$target" = x86-64 ]; then
     count "$out" "$program" "$model" "$width" "$height" "${tile%x*}" "${tile#*x}" "$shade" "$memory" "$method" || exit $?

@@ -1,6 +1,7 @@
-/* small_thumb_gouraud, and what calls it, against smalls_draw of visibility/rows.h: lists of random triangles of all sizes and
- * slopes, in strips and in columns, with polygons, other materials and limits among them. Compared are the tile, the lists, the
- * records and the counter.
+/* small_thumb_gouraud and small_thumb_flat, and what calls them, against smalls_draw of visibility/rows.h: lists of random
+ * triangles of all sizes and slopes, in strips and in columns, with polygons, other materials, colours that are not made yet and
+ * limits among them. Compared are the tile, the lists, the records and the counter; not the ramps, which
+ * may be made for a face that is then left alone.
  */
 #include "twins.h"
 
@@ -12,7 +13,29 @@
 void c_smalls_plain(tuile_t *t, walk_t *walk, uint32_t limit);
 void __real_small_thumb_gouraud(small_run_t *run);
 void __wrap_small_thumb_gouraud(small_run_t *run);
+void __real_small_thumb_flat(small_run_t *run);
+void __wrap_small_thumb_flat(small_run_t *run);
 
+enum {
+    ROUNDS = 12000,
+    FACES = 12,
+    SIDE = 40,         /* the largest tile */
+    AROUND = 3 * SIDE, /* pixels before and behind it, which must stay as they are */
+    RAMPS = 3,
+    PIXELS = SIDE * SIDE + 2 * AROUND,
+};
+
+typedef struct world {
+    uint16_t depth[PIXELS], colour[PIXELS];
+    uint16_t ramps[RAMPS][RAMP_COLOURS], flat[RAMPS][256];
+    int16_t tags[RAMPS];
+    _Alignas(8) uint8_t records[FACES * sizeof(record_surface_t)]; /* the first one last */
+    record_t above;                                                /* the last one of the list of those below */
+    walk_t walk;
+    uint32_t faces_setup;
+} world_t;
+
+static world_t world, before, assembly;
 /* Faces of a list that the assembly drew. */
 static uint32_t drawn;
 
@@ -22,51 +45,37 @@ void __wrap_small_thumb_gouraud(small_run_t *run) {
     drawn += run->count - before;
 }
 
-/* ---- the rest of the renderer, as far as it is called ---- */
+void __wrap_small_thumb_flat(small_run_t *run) {
+    const uint32_t before = run->count;
+    __real_small_thumb_flat(run);
+    drawn += run->count - before;
+}
 
-enum { RAMPS = 3 };
-static uint16_t ramps[RAMPS][RAMP_COLOURS];
-static int16_t tags[RAMPS];
-static uint16_t flat_ramps[RAMPS][256];
+/* ---- the rest of the renderer, as far as it is called ---- */
 
 void frame_ramp_make(tuile_t *of, uint32_t material, uint32_t slot) {
     (void)of;
-    tags[slot] = (int16_t)material;
+    world.tags[slot] = (int16_t)material;
     for (uint32_t i = 0; i < RAMP_COLOURS; i++) {
-        ramps[slot][i] = (uint16_t)(material << 12 | (i + 1));
+        world.ramps[slot][i] = (uint16_t)(material << 12 | (i + 1));
     }
 }
 
-/* Flat faces: black, which is asked for again, is among the colours. */
+/* Flat colours: materials from RAMPS on have no ramp. */
 uint16_t *frame_flat_ramp(const tuile_t *of, uint32_t material) {
-    (void)of;
-    return material < RAMPS ? flat_ramps[material] : NULL;
+    return of->numbers == NULL && material < RAMPS ? world.flat[material] : NULL;
 }
 
+/* Black is among them. */
 uint32_t frame_flat(const tuile_t *of, const record_t *record) {
-    (void)of;
-    return 0x4000u | record->light;
+    const uint32_t colour = record->light % 8 == 0 ? 0 : (uint32_t)record->material << 12 | record->light;
+    uint16_t *const ramp = frame_flat_ramp(of, record->material);
+    if (ramp) { ramp[record->light] = (uint16_t)colour; }
+    return colour;
 }
 
 /* ---- cases ---- */
 
-enum {
-    ROUNDS = 8000,
-    FACES = 12,
-    SIDE = 40,         /* the largest tile */
-    AROUND = 3 * SIDE, /* pixels before and behind it, which must stay as they are */
-    PIXELS = SIDE * SIDE + 2 * AROUND,
-};
-
-typedef struct world {
-    uint16_t depth[PIXELS], colour[PIXELS];
-    _Alignas(8) record_t records[FACES]; /* the first one last */
-    record_t above;                      /* the last one of the list of those below */
-    walk_t walk;
-    uint32_t faces_setup;
-} world_t;
-
-static world_t world, before, assembly;
 static vertex_t vertices[3 * FACES];
 static tuile_t t;
 
@@ -150,7 +159,9 @@ static bool is_inside(const vertex_t *v) {
     return true;
 }
 
-static record_t *record_of(uint32_t number) { return &world.records[FACES - 1 - number]; }
+static const record_t *record_before(uint32_t number) {
+    return (const record_t *)(const void *)(before.records + sizeof before.records - (number + 1) * t.record_bytes);
+}
 
 /* Faces in a list, some of which is left out. In columns all triangles are short (columns.h). */
 static void random_list(random_source_t *random) {
@@ -162,18 +173,25 @@ static void random_list(random_source_t *random) {
         do {
             random_triangle(random, v);
         } while (((small || t.tile_columns > 1) && !is_short(v)) || (small && t.tile_columns == 1 && !is_inside(v)));
-        *record_of(i) = (record_t){.next = list, .v0 = (uint16_t)(3 * i), .d1 = 1, .d2 = 2, .light = (uint8_t)random_bits(random)};
-        record_of(i)->material = (uint8_t)(random_one_in(random, 4) ? random_between(random, 0, 5) : 1);
+        *frame_record(&t, i) =
+            (record_t){.next = list, .v0 = (uint16_t)(3 * i), .d1 = 1, .d2 = 2, .light = (uint8_t)random_bits(random)};
+        frame_record(&t, i)->material = (uint8_t)(random_one_in(random, 4) ? random_between(random, 0, 5) : 1);
         if (swap) { /* the corners from the last one on */
             const vertex_t corner = v[0];
             v[0] = v[2], v[2] = corner;
-            record_of(i)->v0 = (uint16_t)(3 * i + 2);
-            record_of(i)->d1 = -1, record_of(i)->d2 = -2;
+            frame_record(&t, i)->v0 = (uint16_t)(3 * i + 2);
+            frame_record(&t, i)->d1 = -1, frame_record(&t, i)->d2 = -2;
         }
-        if (random_one_in(random, 24)) { record_of(i)->d1 = record_of(i)->d2 = 0; }
+        if (random_one_in(random, 24)) { frame_record(&t, i)->d1 = frame_record(&t, i)->d2 = 0; }
         if (!random_one_in(random, 8)) { list = (uint16_t)(i + 1); }
     }
     t.small = small;
+    for (int i = 0; i < RAMPS; i++) {
+        world.tags[i] = -1;
+        for (int light = 0; light < 256; light++) {
+            world.flat[i][light] = (uint16_t)(random_one_in(random, 4) ? 0 : i << 12 | light);
+        }
+    }
     world.walk = (walk_t){.list = list};
     if (random_one_in(random, 2)) { /* the list of those below has a record already */
         world.walk.left = (list_end_t){FACES + 1, &world.above.next};
@@ -198,7 +216,7 @@ static void draw(void (*smalls)(tuile_t *t, walk_t *walk, uint32_t limit), uint3
 static uint32_t share(void) {
     uint32_t faces = 0;
     for (uint16_t list = before.walk.list; list != world.walk.list;) {
-        const record_t *record = &before.records[FACES - list];
+        const record_t *record = record_before(list - 1u);
         const vertex_t v[3] = {vertices[record->v0], vertices[record->v0 + record->d1], vertices[record->v0 + record->d2]};
         faces += is_short(v) && is_inside(v);
         list = record->next;
@@ -218,19 +236,20 @@ static bool equal(void) {
 bool twins_test(void) {
     random_source_t random = random_seed(0x5a11);
     uint32_t faces = 0, by_assembly = 0, all = 0, below = 0;
-    t.arena_end = (uint8_t *)(world.records + FACES);
-    t.record_bytes = sizeof(record_t);
+    t.arena_end = world.records + sizeof world.records;
     t.vertices = vertices;
-    t.ramps = ramps[0];
-    t.ramp_tags = tags;
+    t.ramps = world.ramps[0];
+    t.ramp_tags = world.tags;
     t.ramp_count = RAMPS;
-    t.span_kind = SPAN_GOURAUD;
     for (int round = 0; round < ROUNDS; round++) {
         const uint32_t limit = random_one_in(&random, 4) ? (uint32_t)random_between(&random, 0, FACES) : UINT32_MAX;
+        const bool deferred = random_one_in(&random, 8);
+        t.span_kind = deferred || random_one_in(&random, 2) ? SPAN_FLAT : SPAN_GOURAUD;
+        t.numbers = deferred ? world.colour : NULL;
+        t.record_bytes = deferred ? sizeof(record_surface_t) : sizeof(record_t);
         random_tile(&random);
         random_list(&random);
         random_pixels(&random);
-        tags[0] = tags[1] = tags[2] = -1;
         memcpy(&before, &world, sizeof world);
         drawn = 0;
         draw(smalls_plain, limit);
@@ -239,9 +258,9 @@ bool twins_test(void) {
         draw(c_smalls_plain, limit);
         if (drawn != share()) { twins_tell("in assembly ", (int32_t)drawn, ", not ", (int32_t)share(), NULL); }
         if (drawn != share() || !equal()) {
-            twins_tell("round ", (int32_t)round, ", limit ", (int32_t)limit, ", columns ", (int32_t)t.tile_columns, ", small ",
-                       (int32_t)t.small, ", tile left ", t.tile.left, ", top ", t.tile.top, ", right ", t.tile.right, ", bottom ",
-                       t.tile.bottom, NULL);
+            twins_tell("round ", (int32_t)round, ", limit ", (int32_t)limit, ", flat ", t.span_kind == SPAN_FLAT, ", deferred ",
+                       (int32_t)deferred, ", columns ", (int32_t)t.tile_columns, ", small ", (int32_t)t.small, ", tile left ",
+                       t.tile.left, ", top ", t.tile.top, ", right ", t.tile.right, ", bottom ", t.tile.bottom, NULL);
             return false;
         }
         faces += world.faces_setup;
