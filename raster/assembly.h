@@ -11,11 +11,14 @@
 #define TUILE_ASSEMBLY 1
 #endif
 
-#if TUILE_ASSEMBLY && defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && defined(__thumb2__) && \
-    defined(__ARM_FEATURE_IDIV) && defined(__ARM_FEATURE_UNALIGNED) && defined(__ARMEL__)
-#define ASSEMBLY_THUMB 1
+/* Could it be? What is laid out goes by this, so that twins agree about it. */
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && defined(__thumb2__) && defined(__ARM_FEATURE_IDIV) && \
+    defined(__ARM_FEATURE_UNALIGNED) && defined(__ARMEL__)
+#define ASSEMBLY_THUMB_COULD 1
 #else
-#define ASSEMBLY_THUMB 0
+#define ASSEMBLY_THUMB_COULD 0
 #endif
+
+#define ASSEMBLY_THUMB (TUILE_ASSEMBLY && ASSEMBLY_THUMB_COULD)
 
 #endif

@@ -34,7 +34,7 @@ static void aim(const set_up_t *s, const long double view[3], int16_t q[3]) {
 }
 
 /* What is known of a cluster's sphere changes none of its vertices. Returns whether some of them are in the window. */
-static bool check_in_sphere(random_source_t *random, const transform_t *transform, const int16_t centre[3]) {
+static bool check_in_sphere(random_source_t *random, transform_t *transform, const int16_t centre[3]) {
     enum { VERTICES = 8 };
     const int32_t reach = random_between(random, 0, 1 << random_between(random, 0, 15));
     const int32_t radius = (reach * 7 + 3) / 4; /* at least sqrt(3) times as much */

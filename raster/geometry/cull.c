@@ -16,35 +16,41 @@
 
 #define AXIS_LENGTH_MAX 128 /* axes are about 127 long; one that were longer would cull nothing */
 
-/* A sphere on the wrong side of one of the planes, told by bits. crossed: those that it is not wholly on the right side of. */
-static bool sphere_outside(const transform_t *transform, unsigned planes, const int32_t centre[3], uint32_t radius,
-                           unsigned *crossed) {
-    *crossed = 0;
-    const transform_plane_t *plane = transform->planes;
-    for (unsigned bit = 1; planes; plane++, bit <<= 1, planes >>= 1) {
-        if (!(planes & 1u)) { continue; }
-        const int64_t value = fixed_mul_wide(plane->n[0], centre[0]) + fixed_mul_wide(plane->n[1], centre[1]) +
-                              fixed_mul_wide(plane->n[2], centre[2]) + plane->d;
-        const int64_t reach = (int64_t)fixed_mul_part(plane->length, radius);
-        if (value + reach < 0) { return true; }
-        if (value - reach < 0) { *crossed |= bit; }
+/* Products by halves are long: once only. */
+#if FIXED_BY_HALVES
+#define PLANE_INLINE static TUILE_NOINLINE
+#else
+#define PLANE_INLINE TUILE_INLINE
+#endif
+
+/* How far inside of a plane a point is, times the plane's length. */
+PLANE_INLINE int64_t plane_value(const transform_plane_t *plane, const int16_t at[3]) {
+    return fixed_mul_wide(plane->n[0], at[0]) + fixed_mul_wide(plane->n[1], at[1]) + fixed_mul_wide(plane->n[2], at[2]) + plane->d;
+}
+
+bool cull_outside(const transform_t *transform, const uint8_t *cluster) {
+    const transform_plane_t *plane = transform->planes, *const end = plane + transform->crossed;
+    if (plane == end) { return false; }
+    const int16_t centre[3] = {model_i16(cluster + CLUSTER_AT_CENTRE), model_i16(cluster + CLUSTER_AT_CENTRE + 2),
+                               model_i16(cluster + CLUSTER_AT_CENTRE + 4)};
+    const uint32_t radius = model_u16(cluster + CLUSTER_AT_RADIUS);
+    for (; plane != end; plane++) {
+        if (plane_value(plane, centre) + (int64_t)fixed_mul_part(plane->length, radius) < 0) { return true; }
     }
     return false;
 }
 
-bool cull_outside(const transform_t *transform, const uint8_t *cluster) {
-    if (transform->crossed == 0) { return false; }
-    const int32_t centre[3] = {model_i16(cluster + CLUSTER_AT_CENTRE), model_i16(cluster + CLUSTER_AT_CENTRE + 2),
-                               model_i16(cluster + CLUSTER_AT_CENTRE + 4)};
-    unsigned crossed;
-    return sphere_outside(transform, transform->crossed, centre, model_u16(cluster + CLUSTER_AT_RADIUS), &crossed);
-}
-
 bool cull_model_outside(transform_t *transform, const tuile_model_t *model) {
-    const int32_t centre[3] = {model->centre[0], model->centre[1], model->centre[2]};
-    unsigned crossed;
-    const bool outside = sphere_outside(transform, (1u << PLANE_COUNT) - 1, centre, model->radius, &crossed);
-    transform->crossed = (uint8_t)crossed;
+    bool outside = false;
+    transform->crossed = 0;
+    for (unsigned i = 0; i < PLANE_COUNT; i++) {
+        const transform_plane_t plane = transform->planes[i];
+        const int64_t value = plane_value(&plane, model->centre), reach = (int64_t)fixed_mul_part(plane.length, model->radius);
+        outside |= value + reach < 0;
+        if (value - reach >= 0) { continue; }
+        transform->planes[i] = transform->planes[transform->crossed];
+        transform->planes[transform->crossed++] = plane;
+    }
     return outside;
 }
 

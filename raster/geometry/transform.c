@@ -8,6 +8,7 @@
  */
 #include "transform.h"
 
+#include "vertex_thumb.h"
 #include "wide.h"
 
 #include "../memory.h"
@@ -251,6 +252,15 @@ static int orthographic_rows(transform_t *transform, const tuile_camera_t *camer
     return TUILE_OK;
 }
 
+/* The sum of |m[i]| / 2^16, rounded up. */
+static uint32_t slope(const transform_row_t *row) {
+    uint64_t sum = UINT16_MAX;
+    for (int i = 0; i < 3; i++) {
+        sum += (uint32_t)(row->m[i] < 0 ? -row->m[i] : row->m[i]);
+    }
+    return (uint32_t)(sum >> 16);
+}
+
 int transform_make(transform_t *transform, const tuile_scene_t *scene, const tuile_instance_t *instance, uint16_t window_width,
                    uint16_t window_height) {
     const tuile_camera_t *camera = &scene->camera;
@@ -266,6 +276,7 @@ int transform_make(transform_t *transform, const tuile_scene_t *scene, const tui
     error = transform->perspective ? perspective_rows(transform, camera, instance->model, view)
                                    : orthographic_rows(transform, camera, instance->model, view);
     if (error) { return error; }
+    transform->w_slope = slope(&transform->w);
     light_vectors(transform, scene, instance);
     transform->mirrored = mirrored(scene, instance);
     transform->cones = !instance->two_sided;
@@ -304,7 +315,7 @@ static void side_plane(const transform_t *transform, transform_plane_t *plane, c
 
 void transform_region(transform_t *transform, const transform_region_t *region) {
     wide_row_t w = row_load(&transform->w);
-    transform->crossed = (1u << PLANE_COUNT) - 1;
+    transform->crossed = PLANE_COUNT;
     const wide_t low = wide_make(-transform->w_low, 0), high = wide_make(transform->w_high, 0);
     wide_row_t plane = w;
     /* Where the first pixel whose centre is at or beyond a coordinate is left ... right, top ... bottom. */
@@ -312,6 +323,7 @@ void transform_region(transform_t *transform, const transform_region_t *region) 
     transform->region_y = (int16_t)(16 * region->top - 7);
     transform->region_width = (uint16_t)(16 * (region->right - region->left + 1));
     transform->region_height = (uint16_t)(16 * (region->bottom - region->top + 1));
+    if (ASSEMBLY_THUMB) { vertex_thumb_make(transform); }
     plane.t = wide_add(plane.t, low);
     plane_store(&transform->planes[PLANE_NEAR], &plane);
     plane = row_scale(&w, wide_make(-1, 0));

@@ -4,6 +4,7 @@
 #ifndef TUILE_GEOMETRY_TRANSFORM_H
 #define TUILE_GEOMETRY_TRANSFORM_H
 
+#include "../assembly.h"
 #include "../fixed.h"
 #include "../tuile.h"
 
@@ -29,6 +30,28 @@ typedef struct transform_plane {
     uint32_t length;
 } transform_plane_t;
 
+/* What the assembly of geometry/vertex_thumb.c reads, in this order. */
+typedef struct transform_run_row {
+    int32_t m[3];
+    uint32_t low, high; /* t * 2^16 */
+} transform_run_row_t;
+
+typedef struct transform_run {
+    transform_run_row_t w;
+    uint32_t zeros, ones; /* ones: UINT32_MAX */
+    transform_run_row_t x, y;
+    int32_t half;
+    uint32_t shift, depth_shift;
+    int32_t region_x;
+    uint32_t region_width;
+    int32_t region_y;
+    uint32_t region_height;
+    int32_t light[3], ambient; /* ambient: with 2 added */
+    const void *end;
+    int32_t guard_x, guard_y; /* of those that are beyond the region */
+    uint32_t any;
+} transform_run_t;
+
 enum { PLANE_NEAR, PLANE_FAR, PLANE_LEFT, PLANE_RIGHT, PLANE_TOP, PLANE_BOTTOM, PLANE_COUNT };
 
 typedef struct transform {
@@ -46,13 +69,14 @@ typedef struct transform {
     uint16_t region_width, region_height;
     int32_t guard_x, guard_y; /* least window coordinates that a vertex may have, 1/16 pixel; they span GUARD_SPAN */
     /* Culling of clusters. */
-    transform_plane_t planes[PLANE_COUNT];
-    uint8_t crossed;       /* bits of those that the model is not wholly inside of: geometry/cull.c */
-    int32_t eye[3];        /* perspective: steps >> eye_shift; orthographic: the view direction, |.| <= 2^20 */
+    transform_plane_t planes[PLANE_COUNT]; /* in the order of the enumeration until cull_model_outside has put it right */
+    uint8_t crossed;       /* so many of the planes, the first ones, the model is not wholly inside of: geometry/cull.c */
     uint8_t eye_shift;     /* eyes far away are cut to 21 bits */
+    int16_t observer_bits; /* <= 14 */
+    int32_t eye[3];        /* perspective: steps >> eye_shift; orthographic: the view direction, |.| <= 2^20 */
     int32_t observer[3];   /* for the sides of planes: perspective: the eye, in steps * 2^observer_bits; orthographic: the way to
                               the observer. |.| < 2^30 */
-    int16_t observer_bits; /* <= 14 */
+    uint32_t w_slope;      /* coarse W changes by so much per step at most: < 2^17 */
     bool mirrored;         /* counter-clockwise in the model is clockwise in the window, seen from the same side */
     bool cones;            /* clusters may be dropped by their cones: one-sided, and the eye within 2^51 steps */
     /* Light. */
@@ -60,6 +84,9 @@ typedef struct transform {
                                                 |components| <= 16512 */
     uint8_t light_count, ambient;            /* ambient >= LIGHT_MIN */
     bool two_sided;
+#if ASSEMBLY_THUMB_COULD
+    transform_run_t run; /* made by transform_region; what differs by cluster, by the vertex stage */
+#endif
 } transform_t;
 
 #define GUARD_SPAN 32768 /* 2048 pixels: differences of coordinates fit in 16 bits, their products in 31 */

@@ -79,31 +79,40 @@ TUILE_INLINE uint8_t next_light(const transform_t *transform, const int8_t **nor
     return vertex_light(transform, n[0], n[1], n[2]);
 }
 
+/* But for its bounds. */
+TUILE_INLINE vertex_octave_t octave_with(const transform_t *transform, unsigned zeros) {
+    const unsigned shift = (unsigned)(30 - transform->k - (int32_t)zeros);
+    return (vertex_octave_t){.zeros = zeros,
+                             .shift = shift,
+                             .depth_shift = (unsigned)(transform->depth_shift - (int32_t)zeros),
+                             .half = (int32_t)(1u << (shift - 1))};
+}
+
 /* False: W is to be projected from fine coordinates. */
 TUILE_INLINE bool octave_of(const transform_t *transform, vertex_octave_t *octave, int32_t w) {
     const int32_t first = transform->w_fast, last = (int32_t)(transform->w_high >> 16) - 2;
     if (w < first || w >= last) { return false; }
     const unsigned zeros = fixed_clz32((uint32_t)w); /* >= 1, since w_fast > 0 */
     const uint32_t low = 0x80000000u >> zeros, end = low * 2;
+    *octave = octave_with(transform, zeros);
     octave->first = low > (uint32_t)first ? low : (uint32_t)first;
     octave->range = (end < (uint32_t)last ? end : (uint32_t)last) - octave->first;
-    octave->zeros = zeros;
-    octave->shift = (unsigned)(30 - transform->k - (int32_t)zeros);
-    octave->depth_shift = (unsigned)(transform->depth_shift - (int32_t)zeros);
-    octave->half = (int32_t)(1u << (octave->shift - 1));
     return true;
 }
 
-static uint32_t magnitude(int32_t a) { return a < 0 ? 0u - (uint32_t)a : (uint32_t)a; }
-
 /* One octave for all of a cluster, by its sphere, in which depths need no lower bound. Fractions may lie 1 step beside it. */
 static bool octave_of_cluster(const transform_t *transform, vertex_octave_t *octave, const uint8_t *cluster) {
-    const uint64_t slope = (uint64_t)magnitude(transform->w.m[0]) + magnitude(transform->w.m[1]) + magnitude(transform->w.m[2]);
-    const int64_t reach = (int64_t)((slope * (model_u16(cluster + CLUSTER_AT_RADIUS) + 2u)) >> 16) + 2; /* < 2^34 */
-    const int64_t w = coarse(&transform->w, model_i16(cluster + CLUSTER_AT_CENTRE), model_i16(cluster + CLUSTER_AT_CENTRE + 2),
-                             model_i16(cluster + CLUSTER_AT_CENTRE + 4));
-    return w - reach > 0 && w + reach < INT32_MAX && octave_of(transform, octave, (int32_t)(w - reach)) &&
-           (uint32_t)(w + reach) - octave->first < octave->range && octave->depth_shift <= 21;
+    const uint32_t slope = transform->w_slope;
+    const uint64_t reach = fixed_mul_part(slope, model_u16(cluster + CLUSTER_AT_RADIUS)) + 2 * slope + 2; /* < 2^34 */
+    if (reach > INT32_MAX / 2) { return false; } /* more than half of what W can be */
+    const int32_t w = (int32_t)coarse(&transform->w, model_i16(cluster + CLUSTER_AT_CENTRE),
+                                      model_i16(cluster + CLUSTER_AT_CENTRE + 2), model_i16(cluster + CLUSTER_AT_CENTRE + 4));
+    const int32_t first = transform->w_fast, last = (int32_t)(transform->w_high >> 16) - 2;
+    if (w < first || w - (int32_t)reach < first || (uint32_t)w + (uint32_t)reach >= (uint32_t)last) { return false; }
+    const unsigned zeros = fixed_clz32((uint32_t)w - (uint32_t)reach);
+    if (((uint32_t)w + (uint32_t)reach) >> (31 - zeros) != 1) { return false; }
+    *octave = octave_with(transform, zeros);
+    return octave->depth_shift <= 21;
 }
 
 /* lit and even are constants where this is called. even: all of the cluster is in `octave`, and there is no light but a one-sided
@@ -165,17 +174,23 @@ static TUILE_NOINLINE unsigned perspective_any(const transform_t *transform, con
                    : perspective(transform, positions, NULL, count, out, none, false, false);
 }
 
-TUILE_NOINLINE unsigned vertex_stage_region(const transform_t *transform, const uint8_t *cluster, const int16_t *positions,
-                                            const int8_t *normals, unsigned count, vertex_t *out) {
+unsigned vertex_stage_region(transform_t *transform, const uint8_t *cluster, const int16_t *positions, const int8_t *normals,
+                             unsigned count, vertex_t *out) {
     vertex_octave_t octave;
     const bool one_sided = transform->light_count <= 1 && !transform->two_sided;
     if (!transform->perspective) { return orthographic(transform, positions, normals, count, out); }
-    if (cluster == NULL || (normals && !one_sided) || !octave_of_cluster(transform, &octave, cluster)) {
+    if ((normals && !one_sided) || !octave_of_cluster(transform, &octave, cluster)) {
         return perspective_any(transform, positions, normals, count, out);
     }
     if (ASSEMBLY_THUMB) { return vertex_thumb(transform, positions, normals, count, out, &octave); }
     return normals ? perspective(transform, positions, normals, count, out, octave, true, true)
                    : perspective(transform, positions, NULL, count, out, octave, false, true);
+}
+
+bool vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out) {
+    const unsigned any = transform->perspective ? perspective_any(transform, positions, normals, count, out)
+                                                : orthographic(transform, positions, normals, count, out);
+    return any & VERTEX_ANY_OUTSIDE;
 }
 
 bool vertex_fractions(const transform_t *transform, const int16_t *positions, const int8_t *fractions, unsigned count,

@@ -25,16 +25,14 @@ enum {
     VERTEX_ANY_BEYOND = 2,  /* some of them is beyond the region (transform_region), so that a face may cover pixels there */
 };
 
-/* Fills out[0 ... count - 1]. cluster: whose vertices they are (geometry/model.h), or NULL. normals: 3 x int8 each, or NULL when no
- * light is wanted at the vertices. Returns VERTEX_ANY_... */
-unsigned vertex_stage_region(const transform_t *transform, const uint8_t *cluster, const int16_t *positions, const int8_t *normals,
+/* Fills out[0 ... count - 1], count >= 1, after transform_region. cluster: whose vertices they are (geometry/model.h). normals: 3 x
+ * int8 each, or NULL when no light is wanted at the vertices. Returns VERTEX_ANY_... What is not const of the transform is scratch.
+ */
+unsigned vertex_stage_region(transform_t *transform, const uint8_t *cluster, const int16_t *positions, const int8_t *normals,
                              unsigned count, vertex_t *out);
 
-/* The same; returns whether any of them is outside. */
-static inline bool vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count,
-                                vertex_t *out) {
-    return vertex_stage_region(transform, NULL, positions, normals, count, out) & VERTEX_ANY_OUTSIDE;
-}
+/* The same of vertices of any clusters; whether any of them is outside. */
+bool vertex_stage(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out);
 
 /* Makes those of out[0 ... count - 1] anew, after vertex_stage, whose positions have fractions: 3 x int8 each, in 1/256. Returns
  * whether any of these is outside. */

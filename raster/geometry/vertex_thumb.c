@@ -1,7 +1,7 @@
 /* 57 instructions a vertex with light, where gcc 12 takes 95, 48 without. What the loop is made of does not fit in registers: they
- * are loaded by the row, five to seven with one instruction, in the order of vertex_run_t. Sums are made 16 places to the left, so
- * that their upper word is the coarse value, and of light twice: usat ends at 2^n - 1, so it ends LIGHT_MAX with 2 added. r of
- * geometry/vertex.c is below 2^31, so products with it are signed ones.
+ * are loaded by the row, five to seven with one instruction, in the order of transform_run_t (transform.h). Sums are made 16 places
+ * to the left, so that their upper word is the coarse value, and of light twice: usat ends at 2^n - 1, so it ends LIGHT_MAX with 2
+ * added. r of geometry/vertex.c is below 2^31, so products with it are signed ones.
  */
 #include "../tune.h"
 
@@ -13,33 +13,12 @@
 
 #if ASSEMBLY_THUMB
 
-typedef struct vertex_run_row {
-    int32_t m[3];
-    uint32_t low, high; /* t * 2^16 */
-} vertex_run_row_t;
-
-/* What the loop reads, in this order. */
-typedef struct vertex_run {
-    vertex_run_row_t w;
-    uint32_t zeros, ones; /* ones: UINT32_MAX */
-    vertex_run_row_t x, y;
-    int32_t half;
-    uint32_t shift, depth_shift;
-    int32_t region_x;
-    uint32_t region_width;
-    int32_t region_y;
-    uint32_t region_height;
-    int32_t light[3], ambient; /* ambient: with 2 added */
-    const vertex_t *end;
-    int32_t guard_x, guard_y; /* of those that are beyond the region */
-    uint32_t any;
-} vertex_run_t;
-
 #define AT_LIGHT 96
 #define GUARD_BEHIND_LIGHT 20
 #define ANY_BEHIND_LIGHT 28
-_Static_assert(offsetof(vertex_run_t, light) == AT_LIGHT && offsetof(vertex_run_t, guard_x) == AT_LIGHT + GUARD_BEHIND_LIGHT &&
-                   offsetof(vertex_run_t, any) == AT_LIGHT + ANY_BEHIND_LIGHT,
+_Static_assert(offsetof(transform_run_t, light) == AT_LIGHT &&
+                   offsetof(transform_run_t, guard_x) == AT_LIGHT + GUARD_BEHIND_LIGHT &&
+                   offsetof(transform_run_t, any) == AT_LIGHT + ANY_BEHIND_LIGHT,
                "offsets in the assembly");
 _Static_assert(VERTEX_ANY_OUTSIDE == 1 && VERTEX_ANY_BEYOND == 2 && LIGHT_MIN == 2 && LIGHT_MAX == 253 &&
                    VERTEX_OUTSIDE == INT16_MIN && GUARD_SPAN - 2 * GUARD_MARGIN == 0x7fe0,
@@ -114,8 +93,8 @@ _Static_assert(VERTEX_ANY_OUTSIDE == 1 && VERTEX_ANY_BEYOND == 2 && LIGHT_MIN ==
                                                                                                    ANY_BEHIND_LIGHT) "]\n" \
                                                                                                                      "b 2b\n"
 
-static TUILE_NOINLINE void run_lit(vertex_run_t *run, const int16_t *positions, const int8_t *normals, vertex_t *out) {
-    register vertex_run_t *r0 __asm__("r0") = run;
+static TUILE_NOINLINE void run_lit(transform_run_t *run, const int16_t *positions, const int8_t *normals, vertex_t *out) {
+    register transform_run_t *r0 __asm__("r0") = run;
     register const int16_t *r1 __asm__("r1") = positions;
     register const int8_t *r2 __asm__("r2") = normals;
     register vertex_t *r3 __asm__("r3") = out;
@@ -141,8 +120,8 @@ static TUILE_NOINLINE void run_lit(vertex_run_t *run, const int16_t *positions, 
                      : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
 }
 
-static TUILE_NOINLINE void run_unlit(vertex_run_t *run, const int16_t *positions, vertex_t *out) {
-    register vertex_run_t *r0 __asm__("r0") = run;
+static TUILE_NOINLINE void run_unlit(transform_run_t *run, const int16_t *positions, vertex_t *out) {
+    register transform_run_t *r0 __asm__("r0") = run;
     register const int16_t *r1 __asm__("r1") = positions;
     register const vertex_t *r2 __asm__("r2") = run->end;
     register vertex_t *r3 __asm__("r3") = out;
@@ -158,37 +137,41 @@ static TUILE_NOINLINE void run_unlit(vertex_run_t *run, const int16_t *positions
                      : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
 }
 
-static vertex_run_row_t run_row(const transform_row_t *row) {
+static transform_run_row_t run_row(const transform_row_t *row) {
     const uint64_t t = (uint64_t)row->t << 16;
-    return (vertex_run_row_t){{row->m[0], row->m[1], row->m[2]}, (uint32_t)t, (uint32_t)(t >> 32)};
+    return (transform_run_row_t){{row->m[0], row->m[1], row->m[2]}, (uint32_t)t, (uint32_t)(t >> 32)};
 }
 
-unsigned vertex_thumb(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out,
+void vertex_thumb_make(transform_t *transform) {
+    transform->run = (transform_run_t){.w = run_row(&transform->w),
+                                       .ones = UINT32_MAX,
+                                       .x = run_row(&transform->x),
+                                       .y = run_row(&transform->y),
+                                       .region_x = transform->region_x,
+                                       .region_width = transform->region_width,
+                                       .region_y = transform->region_y,
+                                       .region_height = transform->region_height,
+                                       .light = {transform->lights[0][0], transform->lights[0][1], transform->lights[0][2]},
+                                       .ambient = transform->ambient + 2,
+                                       .guard_x = transform->guard_x + GUARD_MARGIN,
+                                       .guard_y = transform->guard_y + GUARD_MARGIN};
+}
+
+unsigned vertex_thumb(transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out,
                       const vertex_octave_t *octave) {
-    vertex_run_t run = {.w = run_row(&transform->w),
-                        .zeros = octave->zeros,
-                        .ones = UINT32_MAX,
-                        .x = run_row(&transform->x),
-                        .y = run_row(&transform->y),
-                        .half = octave->half,
-                        .shift = octave->shift,
-                        .depth_shift = octave->depth_shift,
-                        .region_x = transform->region_x,
-                        .region_width = transform->region_width,
-                        .region_y = transform->region_y,
-                        .region_height = transform->region_height,
-                        .light = {transform->lights[0][0], transform->lights[0][1], transform->lights[0][2]},
-                        .ambient = transform->ambient + 2,
-                        .end = out + count,
-                        .guard_x = transform->guard_x + GUARD_MARGIN,
-                        .guard_y = transform->guard_y + GUARD_MARGIN,
-                        .any = 0};
+    transform_run_t *const run = &transform->run;
+    run->zeros = octave->zeros;
+    run->half = octave->half;
+    run->shift = octave->shift;
+    run->depth_shift = octave->depth_shift;
+    run->end = out + count;
+    run->any = 0;
     if (normals) {
-        run_lit(&run, positions, normals, out);
+        run_lit(run, positions, normals, out);
     } else {
-        run_unlit(&run, positions, out);
+        run_unlit(run, positions, out);
     }
-    return run.any;
+    return run->any;
 }
 
 #endif

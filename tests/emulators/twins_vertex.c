@@ -7,18 +7,18 @@
 #include "../../raster/geometry/vertex_thumb.h"
 #include "../support/random.h"
 
-unsigned c_vertex_stage_region(const transform_t *transform, const uint8_t *cluster, const int16_t *positions,
-                               const int8_t *normals, unsigned count, vertex_t *out);
-unsigned __real_vertex_thumb(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count,
-                             vertex_t *out, const vertex_octave_t *octave);
-unsigned __wrap_vertex_thumb(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count,
-                             vertex_t *out, const vertex_octave_t *octave);
+unsigned c_vertex_stage_region(transform_t *transform, const uint8_t *cluster, const int16_t *positions, const int8_t *normals,
+                               unsigned count, vertex_t *out);
+unsigned __real_vertex_thumb(transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out,
+                             const vertex_octave_t *octave);
+unsigned __wrap_vertex_thumb(transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out,
+                             const vertex_octave_t *octave);
 
 /* Clusters that the assembly was called for. */
 static unsigned called;
 
-unsigned __wrap_vertex_thumb(const transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count,
-                             vertex_t *out, const vertex_octave_t *octave) {
+unsigned __wrap_vertex_thumb(transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out,
+                             const vertex_octave_t *octave) {
     called++;
     return __real_vertex_thumb(transform, positions, normals, count, out, octave);
 }
@@ -44,11 +44,14 @@ static transform_t random_transform(random_source_t *random, const int16_t centr
     const unsigned slope = (unsigned)random_between(random, 1, (int32_t)bits);
     int64_t sum = (int64_t)w * 65536 + random_between(random, 0, 65535);
     transform.w = random_row(random, slope, 1);
+    uint64_t steepest = UINT16_MAX;
     for (int i = 0; i < 3; i++) {
         sum -= (int64_t)transform.w.m[i] * centre[i];
+        steepest += (uint32_t)(transform.w.m[i] < 0 ? -transform.w.m[i] : transform.w.m[i]);
     }
+    transform.w_slope = (uint32_t)(steepest >> 16);
     transform.w.t = sum;
-    transform.w_high = INT64_MAX / 2;
+    transform.w_high = INT64_C(1) << 46;
     if (w < INT32_MAX / 2 && random_one_in(random, 3)) { transform.w_high = (int64_t)(w + w / 2) * 65536; }
     transform.w_fast = random_one_in(random, 2) ? 1 : low + (w - low) / 2;
     transform.x = random_row(random, (unsigned)random_between(random, 1, 31), (unsigned)random_between(random, 1, 46));
@@ -123,6 +126,7 @@ bool twins_test(void) {
         for (unsigned i = 0; i < ROOM; i++) {
             assembly[i] = c[i] = (vertex_t){(int16_t)(i + 1), 2, 3};
         }
+        vertex_thumb_make(&transform);
         const unsigned before = called;
         const unsigned any = vertex_stage_region(&transform, cluster, first, light, count, assembly);
         const unsigned wanted = c_vertex_stage_region(&transform, cluster, first, light, count, c);
