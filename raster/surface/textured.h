@@ -53,6 +53,19 @@ bool textured_affine(const textured_material_t *m, const textured_face_t *f);
 /* |x| or |x| - 1. */
 TUILE_INLINE uint32_t textured_size(int32_t x) { return (uint32_t)(x ^ -(int32_t)(x < 0)); }
 
+/* At least how far it is across, in coordinates. */
+TUILE_INLINE uint32_t textured_across(const textured_face_t *f) {
+    return textured_size(f->s1) + textured_size(f->s2) + textured_size(f->t1) + textured_size(f->t2) + 4;
+}
+
+/* Makes the face's level the current one. area: x2 * y1 - x1 * y2. False: it does not take it. */
+TUILE_INLINE bool textured_level_make(textured_material_t *m, const textured_face_t *f, int32_t area) {
+    const uint32_t texels = textured_size(f->s1 * f->t2 - f->s2 * f->t1), pixels = (uint32_t)area << m->pixels_up;
+    const textured_level_t *level = &m->level;
+    return TUILE_LIKELY(texels >> level->upper <= pixels && (texels >> level->lower | level->always) > pixels) ||
+           textured_level_find(m, texels, pixels);
+}
+
 /* How a determinant becomes a step: it is multiplied by a * 2^up / 2^32 and rounded, a half up. Where registers are long, 2^up is
  * in the factor. */
 typedef struct textured_scale {
@@ -83,7 +96,7 @@ TUILE_INLINE int32_t textured_step(int32_t determinant, textured_scale_t scale) 
  * 2^31 from an area of 8 on; the face is as much less across where that is smaller. */
 TUILE_INLINE bool textured_map_make(textured_map_t *map, textured_material_t *m, const textured_face_t *f, int32_t to_x,
                                     int32_t to_y) {
-    const uint32_t across = textured_size(f->s1) + textured_size(f->s2) + textured_size(f->t1) + textured_size(f->t2) + 4;
+    const uint32_t across = textured_across(f);
     const uint32_t deep =
         ((textured_size((int32_t)(f->depth1 - f->depth0)) + textured_size((int32_t)(f->depth2 - f->depth0))) >> 8) + 1;
     if (TUILE_UNLIKELY(across >= m->across)) { return false; }
@@ -93,12 +106,8 @@ TUILE_INLINE bool textured_map_make(textured_map_t *map, textured_material_t *m,
     }
     const int32_t area = f->x2 * f->y1 - f->x1 * f->y2;
     if (TUILE_UNLIKELY(area < 8) && 8 * across > m->across * (uint32_t)area) { return false; }
-    const uint32_t texels = textured_size(f->s1 * f->t2 - f->s2 * f->t1), pixels = (uint32_t)area << m->pixels_up;
+    if (!textured_level_make(m, f, area)) { return false; }
     const textured_level_t *level = &m->level;
-    if (TUILE_UNLIKELY(texels >> level->upper > pixels || (texels >> level->lower | level->always) <= pixels) &&
-        !textured_level_find(m, texels, pixels)) {
-        return false;
-    }
     const textured_scale_t scale = textured_scale(divide_area(area) >> level->down, level->up); /* sides are short */
     const int32_t s_x = textured_step(f->s2 * f->y1 - f->s1 * f->y2, scale),
                   t_x = textured_step(f->t2 * f->y1 - f->t1 * f->y2, scale),

@@ -8,7 +8,16 @@
 
 #include "zbuffer_textured.h"
 
-void smalls_textured(tuile_t *t, walk_t *walk, uint32_t limit) { smalls_draw(t, walk, limit, SMALL_TEXTURED); }
+#include "../assembly.h"
+#include "smalls_textured.h"
+
+void smalls_textured(tuile_t *t, walk_t *walk, uint32_t limit) {
+    if (ASSEMBLY_THUMB && t->config.shade == TUILE_GOURAUD) {
+        smalls_textured_thumb(t, walk, limit);
+    } else {
+        smalls_draw(t, walk, limit, SMALL_TEXTURED);
+    }
+}
 
 int zbuffer_textured_tile(tuile_t *t, uint16_t row) {
     rows_draw_tile(t, row, ROWS_TEXTURED);

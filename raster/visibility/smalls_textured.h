@@ -1,0 +1,111 @@
+/* smalls_draw of rows.h for textured faces with light at their corners, by the loop in assembly: fill/textured_thumb.c. Here is
+ * what that leaves to C.
+ */
+#ifndef TUILE_VISIBILITY_SMALLS_TEXTURED_H
+#define TUILE_VISIBILITY_SMALLS_TEXTURED_H
+
+#include "../fill/textured_thumb.h"
+#include "rows.h"
+
+/* The run of a tile, without what a source and a level decide. */
+TUILE_INLINE textured_run_t smalls_textured_run(const tuile_t *t, walk_t *walk, uint32_t limit, const small_tile_t *tile) {
+    return (textured_run_t){.colour = tile->colour * (ptrdiff_t)sizeof(uint16_t) - (ptrdiff_t)sizeof(uint16_t),
+                            .round = TEXTURED_RUN_ROUND,
+                            .limit = limit,
+                            .arena_end = t->arena_end,
+                            .record_bytes = t->record_bytes,
+                            .source = UINT32_MAX,
+                            .known = t->tile_columns == 1 && t->small,
+                            .vertices = t->vertices,
+                            .top = 16 * (int32_t)tile->top + 8,
+                            .height = (int32_t)(tile->bottom - tile->top),
+                            .depth = tile->depth - tile->first,
+                            .stride = (int32_t)(tile->stride * (small_int_t)sizeof(uint16_t)),
+                            .left = tile->left,
+                            .width = tile->width,
+                            .list = walk->list,
+                            .end = walk->left.end ? walk->left.end : &walk->left.first};
+}
+
+/* What t->textured_source and the current level decide. */
+static inline void smalls_textured_source(const tuile_t *t, textured_run_t *run) {
+    const textured_material_t *m = &t->textured_last;
+    const textured_level_t *level = &m->level;
+    run->source = t->textured_source;
+    run->texcoords = t->textured_texcoords;
+    run->mask = level->mask | level->shift;
+    run->texels = level->texels;
+    run->palette = m->palette;
+    run->s_inside = m->s_inside;
+    run->from_corner = level->from_corner;
+    run->across = (uint32_t)m->across - 4u;
+    run->one = (uint32_t)m->one + 4u;
+    run->log2_one = m->uv_bits;
+    run->always = level->always;
+    run->upper = level->upper;
+    run->lower = level->lower;
+    run->pixels_up = m->pixels_up;
+    run->up = level->up;
+    run->down = level->down;
+    run->t_unit = level->t_unit;
+    run->s_unit = level->s_unit;
+}
+
+/* A face that the assembly leaves alone. False: it is not to be drawn so. */
+static inline bool smalls_textured_beside(tuile_t *t, walk_t *walk, textured_run_t *run, const record_t *record,
+                                          const small_tile_t *tile) {
+    const vertex_t *v0 = t->vertices + record->v0, *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+    const uint32_t number = run->list - 1u;
+    small_paint_t paint = {.constants = textured_constants()};
+    small_face_t face;
+    if (!small_open(&face, v0, v1, v2, tile, 0) ||
+        !small_prepare(t, record, number, SMALL_TEXTURED, true, &face, v0, v1, v2, &paint)) {
+        return false;
+    }
+    const bool reaches = small_fill_clamped(&face, v0, v1, v2, tile, SMALL_TEXTURED, true, 0, &paint);
+    run->list = record->next;
+    run->count++;
+    walk->left.end = run->end == &walk->left.first ? NULL : run->end;
+    if (!small_inside(&face.corners, tile) && t->tile_columns > 1) {
+        columns_hand_on(t, number, (uint32_t)t->tile.left / t->config.tile_width, (int32_t)tile->bottom, &walk->right, &walk->left);
+    } else if (reaches) {
+        list_append(t, &walk->left, number);
+    }
+    if (walk->left.end) { run->end = walk->left.end; }
+    return true;
+}
+
+/* Makes the level of a face the current one, where it is another. */
+static inline bool smalls_textured_level(tuile_t *t, const record_t *record) {
+    const vertex_t *v0 = t->vertices + record->v0, *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+    const small_corners_t c = {v0->x, v0->y, v1->x - v0->x, v1->y - v0->y, v2->x - v0->x, v2->y - v0->y};
+    if (!small_short(&c)) { return false; }
+    const textured_face_t face = textured_face(t, record, v0, v1, v2, (int32_t)c.x1, (int32_t)c.y1, (int32_t)c.x2, (int32_t)c.y2);
+    const unsigned number = t->textured_last.level.number;
+    return textured_across(&face) < t->textured_last.across &&
+           textured_level_make(&t->textured_last, &face, face.x2 * face.y1 - face.x1 * face.y2) &&
+           t->textured_last.level.number != number;
+}
+
+static inline void smalls_textured_thumb(tuile_t *t, walk_t *walk, uint32_t limit) {
+    small_tile_t tile = small_tile(&t->tile);
+    tile.colour = (t->working ? (uint16_t *)t->working : (uint16_t *)(void *)t->colours[t->next_buffer]) - tile.depth;
+    textured_run_t run = smalls_textured_run(t, walk, limit, &tile);
+    for (;;) {
+        textured_thumb(&run);
+        if (run.list - 1u >= limit) { break; }
+        const record_t *record = frame_record(t, run.list - 1u);
+        if (!frame_record_is_triangle(record) || !textured_fits(t, record)) { break; }
+        if (run.source == t->textured_source && !smalls_textured_level(t, record) &&
+            !smalls_textured_beside(t, walk, &run, record, &tile)) {
+            break;
+        }
+        smalls_textured_source(t, &run);
+    }
+    walk->list = (uint16_t)run.list;
+    walk->left.end = run.end == &walk->left.first ? NULL : run.end;
+    t->stats.faces_setup += run.count;
+    if (run.count) { t->textured_any = true; }
+}
+
+#endif
