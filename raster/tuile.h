@@ -559,7 +559,7 @@ typedef struct tuile_stats {
     uint32_t glyphs_missing;   /* overlay: boxes drawn for characters that a font has not */
     uint32_t size_bytes;       /* the block */
     uint32_t least_bytes;      /* the least block for this configuration */
-    uint32_t peak_bytes;       /* the block that would have given the same passes */
+    uint32_t peak_bytes;       /* a block of so many, or of least_bytes where they are more, gives no more passes */
 } tuile_stats_t;
 
 /* Ends a frame, complete or not. stats may be NULL. */

@@ -321,7 +321,7 @@ static void sorting_takes_two_bytes_a_face(void **state) {
     const uint32_t empty_bytes = 8 * (depth.faces_binned - order.faces_binned);
     /* Colours of one material by light: the z-buffer keeps them where there is memory to spare (frame/frame.c). */
     const uint32_t depth_bytes = TUILE_ALIGN64(2u * 120u * 90u) + TUILE_ALIGN8(2u * 256u + 2u);
-    assert_int_equal(order.peak_bytes, depth.peak_bytes - depth_bytes - empty_bytes + 2 * (order.faces_binned + 1));
+    assert_int_equal(order.peak_bytes, TUILE_ALIGN8(depth.peak_bytes - depth_bytes - empty_bytes + 2 * (order.faces_binned + 1)));
     const size_t enough = TUILE_ALIGN8((size_t)order.peak_bytes);
     free(frame_draw(&stage.view.scene, &config, enough, &again));
     assert_int_equal(again.passes, 1);

@@ -81,7 +81,9 @@ static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
     int result = bin_cluster_open(t, bytes, &cluster);
     if (result != FRAME_OK) { return result == BIN_CULLED ? FRAME_OK : result; }
     result = face_bin_all(t, &cluster);
-    if (t->record_count == binned) { t->vertex_count = mark; } /* none of its faces is left: nor need its vertices be */
+    if (t->record_count != binned) { return result; }
+    pass_give_up(t, t->vertex_count);
+    t->vertex_count = mark; /* none of its faces is left: nor need its vertices be */
     return result;
 }
 
@@ -89,6 +91,7 @@ void bin_begin(tuile_t *t) {
     t->stats.passes++;
     t->textured_source = UINT16_MAX;
     t->vertex_count = t->record_count = 0;
+    t->passing_bytes = 0;
     t->instance = NULL;
     t->small = true;
     for (uint32_t row = t->pass_first; row < t->pass_end; row++) {

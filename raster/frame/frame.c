@@ -314,6 +314,7 @@ static uint8_t *ramps_lay_out(tuile_t *t, uint32_t materials) {
     size_t ramps = gouraud || flat ? materials : 0;
     if (ramps > (gouraud ? 1 : 0) && ramps * ramp > room) { ramps = room / ramp > 1 || flat ? room / ramp : 1; }
     t->ramp_count = (uint16_t)ramps;
+    t->ramps_few = ramps < (gouraud || flat ? materials : 0);
     t->ramps = (uint16_t *)(void *)t->arena;
     t->ramp_tags = (int16_t *)(void *)(t->arena + ramps * bytes);
     for (size_t i = 0; i < ramps; i++) {

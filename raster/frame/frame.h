@@ -160,14 +160,16 @@ typedef struct tuile {
     uint16_t *ramps;
     int16_t *ramp_tags;
     uint16_t ramp_count;
+    bool ramps_few;        /* fewer than there are materials */
     uint32_t background;   /* a sample */
     tuile_camera_t camera; /* the scene's, in samples */
     /* Layers (layer/layer.h). */
     uint16_t *layer_depth; /* of the opaque faces of the tile */
     void *layer_samples;   /* layer_sample_t: layer_rows of the tile; NULL: no layers */
     struct layer_band *layer_band;
-    uint32_t layer_number; /* faces that come one by one */
-    uint32_t *translucent; /* materials of the instance, as 256 bits */
+    uint32_t layer_number;  /* faces that come one by one */
+    uint32_t passing_bytes; /* the pass: the most that vertices and records took, with those that were given up again */
+    uint32_t *translucent;  /* materials of the instance, as 256 bits */
     uint16_t layer_rows;
     uint8_t layer_part; /* LAYER_PART_...: which faces are binned */
     uint8_t sift;       /* SIFT_...: the same for this instance */
@@ -237,6 +239,11 @@ _Static_assert(sizeof(tuile_state_t) <= TUILE_STATE_BYTES, "TUILE_STATE_BYTES");
 
 /* 64 bytes at a time; size_bytes is rounded up to that, which tile memory and colours have room for (TUILE_ALIGN64). */
 void frame_fill_words(void *bytes, uint32_t word, size_t size_bytes);
+
+/* Of vertices and records, were there so many slots of the former. */
+TUILE_INLINE size_t frame_bytes_with(const tuile_t *t, uint32_t slots) {
+    return slots * sizeof(vertex_t) + ((size_t)t->record_count * t->record_bytes + 7) / 8 * 8;
+}
 
 /* The room between vertices and records, 8-byte aligned at both ends: what a method may use while it draws. */
 TUILE_INLINE uint8_t *frame_room(const tuile_t *t, size_t *size_bytes) {
@@ -351,6 +358,12 @@ int pass_draw(tuile_t *t, uint32_t row, uint32_t column);
 
 /* Keeps the record of how much of the block the pass took, room_bytes of the room between vertices and records among it. */
 void pass_measure(tuile_t *t, size_t room_bytes);
+
+/* Before some of `slots` vertices are given up again: they count all the same. */
+void pass_give_up(tuile_t *t, uint32_t slots);
+
+/* Keeps the same record: what has been asked for ends there. */
+void pass_reaches(tuile_t *t, const uint8_t *end);
 
 /* ---- trace.c: t->config.trace is not NULL ---- */
 

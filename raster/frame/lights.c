@@ -38,6 +38,7 @@ int frame_lights_begin(tuile_t *t, bool coloured, uint8_t **arena) {
     }
     t->lamps = (lamps_t *)(void *)*arena;
     *arena += bytes;
+    pass_reaches(t, *arena + least);
     return TUILE_OK;
 }
 

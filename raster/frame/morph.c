@@ -31,6 +31,7 @@ int frame_morph_begin(tuile_t *t, uint8_t **arena) {
     t->morph_scratch = *arena;
     t->morph_vertices = (uint16_t)vertices;
     *arena += bytes;
+    pass_reaches(t, *arena + least);
     return TUILE_OK;
 }
 

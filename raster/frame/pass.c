@@ -32,12 +32,21 @@ static bool pass_covers(const tuile_t *t, uint32_t row, uint32_t column) {
     return t->pass_valid && row >= t->pass_first && row < t->pass_end && (!t->narrow || t->immediate || column == t->pass_column);
 }
 
-void pass_measure(tuile_t *t, size_t carried_bytes) {
-    const size_t used = (size_t)((uint8_t *)(t->vertices + t->vertex_count) - (uint8_t *)t) + carried_bytes +
-                        (size_t)t->record_count * t->record_bytes;
+void pass_give_up(tuile_t *t, uint32_t slots) {
+    const size_t bytes = frame_bytes_with(t, slots);
+    if (bytes > t->passing_bytes) { t->passing_bytes = (uint32_t)bytes; }
+}
+
+void pass_reaches(tuile_t *t, const uint8_t *end) {
+    const size_t used = TUILE_ALIGN8((size_t)(end - (const uint8_t *)t)); /* the last bytes of a block are used by eights only */
     /* What a method asks for may be a few bytes more than it takes: the block was large enough all the same. */
     const uint32_t enough = used < t->stats.size_bytes ? (uint32_t)used : t->stats.size_bytes;
     if (enough > t->stats.peak_bytes) { t->stats.peak_bytes = enough; }
+}
+
+void pass_measure(tuile_t *t, size_t carried_bytes) {
+    const size_t kept = frame_bytes_with(t, t->vertex_count) + carried_bytes;
+    pass_reaches(t, (const uint8_t *)t->vertices + (kept > t->passing_bytes ? kept : t->passing_bytes));
 }
 
 /* Small triangles in lists by column, where the method draws them so and there is room for the lists. */
@@ -66,21 +75,36 @@ static void rows_restart(tuile_t *t, uint32_t row) {
 /* Takes the place of draw_now: the block that would hold this face for the whole pass. */
 static void count_face(tuile_t *t, uint32_t number) {
     const record_t *record = frame_record(t, number);
-    const uint32_t corners = frame_record_is_triangle(record) ? 3 : frame_record_ring(t, record).count;
-    uint32_t slots = 0;
+    uint32_t corners = 3, slots = 0;
+    bool clipped = false;
     if (!frame_record_is_triangle(record)) {
+        const polygon_ring_t ring = frame_record_ring(t, record);
+        corners = ring.count;
+        clipped = ring.corners == NULL;
         slots = 1 + corners + (corners + 7) / 8;
     } else if (record->v0 >= t->cluster_end) {
-        slots = 3; /* clipped: vertices of its own */
+        clipped = true;
+        slots = 3; /* vertices of its own */
+    }
+    if (clipped && frame_deferred(t)) {
+        slots += SOURCE_SLOTS + corners * (uint32_t)(sizeof(clip_attributes_t) / sizeof(vertex_t));
     }
     t->wanted_bytes += t->record_bytes + slots * sizeof(vertex_t);
     if (t->method->face_bytes) { t->wanted_bytes += t->method->face_bytes(corners); }
     t->counted++;
 }
 
+/* Of a block with `more` bytes more, ramps and rows of layers take up to an eighth each, as long as they are not all there. */
+static size_t with_larger_layout(const tuile_t *t, size_t more) {
+    const bool rows = frame_layers(t) && t->layer_rows < t->config.tile_height;
+    if (!t->ramps_few && !rows) { return more; }
+    return (more + RAMP_FLAT_BYTES + (rows ? TUILE_LAYER_BYTES((size_t)t->config.tile_width, 1u) : 0) + 16) / 3 * 4;
+}
+
 /* A tile whose faces do not fit: counts them. */
 static int pass_want(tuile_t *t, uint32_t row, uint32_t column) {
-    const uint32_t vertices = t->stats.vertices;
+    const uint32_t vertices_before = t->stats.vertices, clusters_before = t->stats.clusters;
+    const size_t size_bytes = t->stats.size_bytes;
     pass_set(t, row, row + 1, column, true);
     t->immediate = true;
     t->draw_now = count_face;
@@ -89,9 +113,14 @@ static int pass_want(tuile_t *t, uint32_t row, uint32_t column) {
     const int result = bin_pass(t);
     t->pass_valid = false;
     if (result < 0) { return result; }
-    t->wanted_bytes += (size_t)(t->stats.vertices - vertices) * sizeof(vertex_t);
+    const size_t vertices = t->stats.vertices - vertices_before, clusters = t->stats.clusters - clusters_before;
+    t->wanted_bytes += vertices * sizeof(vertex_t) + t->passing_bytes;
+    if (frame_deferred(t)) { /* light: half a slot a vertex, rounded up */
+        t->wanted_bytes += clusters * sizeof(source_slot_t) + (t->lamps != NULL ? vertices * 4 + clusters * 4 : 0);
+    }
     if (t->method->room_bytes) { t->wanted_bytes += t->method->room_bytes(&t->config, t->counted); }
-    if (t->wanted_bytes <= t->stats.size_bytes) { t->wanted_bytes = (size_t)t->stats.size_bytes + t->stats.size_bytes / 8; }
+    t->wanted_bytes =
+        size_bytes + (t->wanted_bytes > size_bytes ? with_larger_layout(t, t->wanted_bytes - size_bytes) : size_bytes / 8);
     return TUILE_ERROR_MEMORY;
 }
 
@@ -130,6 +159,7 @@ static int pass_begin(tuile_t *t, uint32_t row, uint32_t column) {
     if (used <= total / 2 && !t->shrunk) {
         const uint32_t more = rows ? rows * 2 : 1;
         t->rows_hint = (uint16_t)(more > t->tile_rows ? t->tile_rows : more);
+        if (t->pass_end < end) { pass_reaches(t, (const uint8_t *)t->vertices + 2 * used); }
     }
     t->pass_valid = true;
     rows_restart(t, row);

@@ -229,6 +229,7 @@ int layer_tile(tuile_t *t) {
         }
         result = FRAME_OK;
     }
+    if (items.gathered) { pass_measure(t, 0); }
     const bool immediate = t->immediate;
     const bool any =
         !items.gathered || items.end[PARTS - 1] > items.first || t->scene->sprite_count != 0 || t->scene->line_count != 0;
