@@ -1,9 +1,7 @@
 /* The program of another board on Arm's MPS2 with the same core, as QEMU has it: AN386 with a Cortex-M4 (DAI 0386), AN505 with a
  * Cortex-M33 (DAI 0505). It takes the place of that board's own board.c, bus and registers; all else is that board's objects. It
- * has no panel: the wire of an ST7789 goes to a file. */
+ * has no panel: the wire of an ST7789 goes to a file; see board/wire/wire_board.c. */
 #include "../board/board.h"
-#include "../board/models.h"
-#include "../board/semihosting.h"
 #include "../board/wire_file.h"
 #include "../../hal/panels/st7789.h"
 
@@ -15,11 +13,7 @@ void *board_block(size_t *size_bytes) {
     return block;
 }
 
-const void *board_model(const scene_script_t *script, size_t *size_bytes) { return models_find(script, size_bytes); }
-
 uint32_t board_clock_us(void) { return 0; } /* nobody asks: the program that tests run does not look at time */
-
-bool board_button(void) { return false; }
 
 const tuile_display_config_t *board_display(void) {
     static tuile_bus_t bus;
@@ -28,13 +22,3 @@ const tuile_display_config_t *board_display(void) {
     if (wire_file_open(&bus, "wire.trace")) { board_park(BOARD_FAILED); }
     return &config;
 }
-
-void board_tell(const char *line) {
-    if (wire_file_tell(line)) { board_park(BOARD_FAILED); }
-}
-
-void board_shown(void) {} /* the file is looked at when all is over */
-
-void board_options(char *text, size_t size_bytes) { semihosting_options(text, size_bytes); }
-
-void board_park(board_code_t code) { semihosting_exit(code); }

@@ -1,7 +1,6 @@
-/* SiFive E: an RV32IMAC with 16 KB of RAM, as QEMU has it. It has no panel: the wire of an ILI9341 goes to a file. */
+/* SiFive E: an RV32IMAC with 16 KB of RAM, as QEMU has it. It has no panel: the wire of an ILI9341 goes to a file;
+ * see board/wire/wire_board.c. */
 #include "../board/board.h"
-#include "../board/models.h"
-#include "../board/semihosting.h"
 #include "../board/wire_file.h"
 #include "../../hal/panels/ili9341.h"
 
@@ -17,8 +16,6 @@ void *board_block(size_t *size_bytes) {
     return block;
 }
 
-const void *board_model(const scene_script_t *script, size_t *size_bytes) { return models_find(script, size_bytes); }
-
 /* mtime counts the periods of a crystal of 32 768 Hz (FE310-G000 manual, CLINT): 512 of them are 15 625 us. It is two words, and
  * the upper one may move between looks at the two. */
 uint32_t board_clock_us(void) {
@@ -31,8 +28,6 @@ uint32_t board_clock_us(void) {
     return (uint32_t)((((uint64_t)high << 32 | low) * 15625u) >> 9);
 }
 
-bool board_button(void) { return false; } /* there is none */
-
 const tuile_display_config_t *board_display(void) {
     static tuile_bus_t bus;
     static const tuile_display_config_t config = {
@@ -41,13 +36,3 @@ const tuile_display_config_t *board_display(void) {
     if (wire_file_open(&bus, "wire.trace")) { board_park(BOARD_FAILED); }
     return &config;
 }
-
-void board_tell(const char *line) {
-    if (wire_file_tell(line)) { board_park(BOARD_FAILED); }
-}
-
-void board_shown(void) {} /* the file is looked at when all is over */
-
-void board_options(char *text, size_t size_bytes) { semihosting_options(text, size_bytes); }
-
-void board_park(board_code_t code) { semihosting_exit(code); }

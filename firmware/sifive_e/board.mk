@@ -6,4 +6,4 @@ sifive_e_STACK := 4576 # bytes: link.ld's room without the guard
 sifive_e_PANEL := ili9341
 sifive_e_SCENES := cube room spider
 sifive_e_DEFINES := -DTUILE_FEATURES=512 -DTUILE_FORMATS=1
-sifive_e_SRC := $(wildcard firmware/riscv/*.c) hal/panels/ili9341.c
+sifive_e_SRC := $(wildcard firmware/riscv/*.c firmware/board/wire/*.c) hal/panels/ili9341.c

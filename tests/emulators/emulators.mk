@@ -82,13 +82,15 @@ mps2_MAP_pico2 := -Wl,--defsym=FLASH_AT=0x10000000 -Wl,--defsym=RAM_AT=0x8000000
 
 # $(call mps2_board,BOARD,OBJECTS): MPS2/BOARD/frames.elf, with MODEL=FILE MPS2/BOARD-model/frames.elf. The block is as large as in the board's own program.
 define mps2_board
-$(MPS2)/$(1)$(FIRMWARE_OWN)/frames.elf: $(MPS2)/$(1)$(FIRMWARE_OWN)/board.o $(call firmware_folder,$(1))/frames.elf firmware/mps2/link.ld
+$(MPS2)/$(1)$(FIRMWARE_OWN)/frames.elf: $(MPS2)/$(1)$(FIRMWARE_OWN)/board.o $(MPS2)/$(1)$(FIRMWARE_OWN)/wire_board.o $(call firmware_folder,$(1))/frames.elf firmware/mps2/link.ld
 	@echo "  mps2 $$@"; $($(1)_TOOLS)gcc $($(1)_FLAGS) -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings $(mps2_MAP_$(1)) \
-	  -T firmware/mps2/link.ld $$< $(filter-out $(patsubst %,$(FIRMWARE)/$(1)/%/%,$(mps2_OWN_$(1))),$(2)) -lgcc -o $$@
-$(MPS2)/$(1)$(FIRMWARE_OWN)/board.o: firmware/mps2/board.c $(call firmware_folder,$(1))/frames.elf
+	  -T firmware/mps2/link.ld $$(filter %.o,$$^) $(filter-out $(patsubst %,$(FIRMWARE)/$(1)/%/%,$(mps2_OWN_$(1))),$(2)) -lgcc -o $$@
+$(MPS2)/$(1)$(FIRMWARE_OWN)/board.o: firmware/mps2/board.c
+$(MPS2)/$(1)$(FIRMWARE_OWN)/wire_board.o: firmware/board/wire/wire_board.c
+$(MPS2)/$(1)$(FIRMWARE_OWN)/board.o $(MPS2)/$(1)$(FIRMWARE_OWN)/wire_board.o: $(call firmware_folder,$(1))/frames.elf
 	@mkdir -p $$(@D)
 	@size=$$$$($($(1)_TOOLS)nm -S $(call firmware_folder,$(1))/frames.elf | awk '$$$$4 == "block" { print $$$$2 }'); \
-	$($(1)_TOOLS)gcc $($(1)_FLAGS) $(FIRMWARE_FLAGS) $(call scene_bits,$($(1)_SCENES)) -DBLOCK_BYTES=0x$$$$size -MMD -MP -c $$< -o $$@
+	$($(1)_TOOLS)gcc $($(1)_FLAGS) $(FIRMWARE_FLAGS) $(call scene_bits,$($(1)_SCENES)) -DBLOCK_BYTES=0x$$$$size -MMD -MP -c $$(filter %.c,$$^) -o $$@
 
 test-firmware-$(1): $(MPS2)/$(1)$(FIRMWARE_OWN)/frames.elf $(OBJ)/wire_trace $(TUILE) firmware-models $(BUILD)/need/emulators firmware-$(1) stack-$(1) size-firmware-$(1)
 	@$$(call WIRE_TEST,$(1),$(MPS2)/$(1)$(FIRMWARE_OWN)/frames.elf,$(FIRMWARE)/$(1))
