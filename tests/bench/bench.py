@@ -22,13 +22,20 @@ ROOM = 4 * 1024 * 1024  # of a frame in one pass, where nothing else is asked fo
 
 
 def parse():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("command", choices=("rows", "sweep"))
+    parser = parser_of(__doc__, ("rows", "sweep"))
+    parser.add_argument("--board", action="append", default=[], metavar="TARGET=COMMAND", help="what prints the frames of a board")
+    return parser.parse_args()
+
+
+def parser_of(doc, commands=()):
+    """What this script and compare.py take: models, where things are, and what is to be counted."""
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
+    if commands:
+        parser.add_argument("command", choices=commands)
     parser.add_argument("models", nargs="+")
     add_common(parser)
     add_choice(parser)
-    parser.add_argument("--board", action="append", default=[], metavar="TARGET=COMMAND", help="what prints the frames of a board")
-    return parser.parse_args()
+    return parser
 
 
 def add_common(parser):

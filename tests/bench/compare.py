@@ -5,7 +5,6 @@
 The revision is unpacked and built in OUT/base/COMMIT, with this tree's tests/bench in the place of its own. Per cent are of what it took.
 """
 
-import argparse
 import os
 import shutil
 import subprocess
@@ -108,12 +107,9 @@ def compare(arguments):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("models", nargs="+")
+    parser = bench.parser_of(__doc__)
     parser.add_argument("--base", required=True)
     parser.add_argument("--make", default="make")
-    bench.add_common(parser)
-    bench.add_choice(parser)
     try:
         compare(parser.parse_args())
     except BenchError as error:

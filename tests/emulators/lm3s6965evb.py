@@ -10,7 +10,7 @@ import sys
 from expected import Simulator, differ
 from frames import FAULTS, Frames, read_wanted
 from qemu import EmulatorError, Qemu, counted_frames
-from script import run_script, verdict
+from script import run_script, show_end, show_frame, verdict
 
 
 def run_frames(image, cpu, options, simulator, wanted, count, folder, limit_s):
@@ -79,19 +79,11 @@ def show(arguments):
             if not told:
                 print(line)
                 continue
-            path = os.path.join(arguments.out, "{}-{}-{:02d}.png".format(*told))
-            qemu.panel().write(path)
             shown += 1
-            counted = qemu.counted(shown) if arguments.plugin else None
-            print(line + (f" instructions {counted}" if counted else "") + f" {path}")
+            show_frame(line, told, qemu.panel(), qemu.counted(shown) if arguments.plugin else None, arguments.out)
             qemu.go_on()
         code, complaints = qemu.end()
-        for text in complaints:
-            if not text.startswith("instructions "):
-                print(text, file=sys.stderr)
-        if code:
-            print(f"ended with {code}{qemu.told()}", file=sys.stderr)
-    return 1 if code else 0
+        return show_end(complaints, code, qemu.told())
 
 
 def more(parser):

@@ -1,6 +1,7 @@
-"""What the scripts of QEMU's boards have in common: their arguments, and how a test's end is told."""
+"""What the scripts of QEMU's boards have in common: their arguments, and how frames and the end are told."""
 
 import argparse
+import os
 import sys
 
 from qemu import EmulatorError
@@ -14,6 +15,23 @@ def verdict(name, faults, frames):
         print(f"{name}: {sum(frames.shown.values())} frames of {len(frames.shown)} scenes by methods are the simulator's, bit for bit; "
               f"stack {frames.stack[0]} of {frames.stack[1]} bytes; faults are told")
     return not faults
+
+
+def show_frame(line, told, picture, instructions, folder):
+    """Saves a frame as PNG, and prints its line with the file. told: its scene, method and number; instructions: None when not counted."""
+    path = os.path.join(folder, "{}-{}-{:02d}.png".format(*told))
+    picture.write(path)
+    print(line + (f" instructions {instructions}" if instructions else "") + f" {path}")
+
+
+def show_end(complaints, code, more=""):
+    """Prints what QEMU complained of and a code other than 0, with what else is to be told of it. Returns the script's exit code."""
+    for text in complaints:
+        if not text.startswith("instructions "):
+            print(text, file=sys.stderr)
+    if code:
+        print(f"ended with {code}{more}", file=sys.stderr)
+    return 1 if code else 0
 
 
 def run_script(doc, test, show, more):

@@ -11,7 +11,7 @@ from expected import Simulator, differ
 from frames import FAULTS, Frames, read_wanted
 from picture import read_ppm
 from qemu import Qemu, counted_frames
-from script import run_script, verdict
+from script import run_script, show_end, show_frame, verdict
 from wire import read_wire
 
 # The machine, its core, and the panel: firmware/BOARD/board.c, or firmware/mps2/ with the board's other objects.
@@ -70,16 +70,9 @@ def show(arguments):
         if not told:
             print(line)
             continue
-        path = os.path.join(arguments.out, "{}-{}-{:02d}.png".format(*told))
-        read_ppm(os.path.join(folder, "{}-{}-{:02d}.ppm".format(*told))).write(path)
-        count = next(counted, None)
-        print(line + (f" instructions {count}" if count else "") + f" {path}")
-    for text in complaints:
-        if not text.startswith("instructions "):
-            print(text, file=sys.stderr)
-    if code:
-        print(f"ended with {code}", file=sys.stderr)
-    return 1 if code else 0
+        seen = read_ppm(os.path.join(folder, "{}-{}-{:02d}.ppm".format(*told)))
+        show_frame(line, told, seen, next(counted, None), arguments.out)
+    return show_end(complaints, code)
 
 
 def more(parser):
