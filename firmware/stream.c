@@ -38,10 +38,21 @@ int tuile_stream_check(const tuile_config_t *config, const tuile_display_t *disp
                : TUILE_ERROR_ARGUMENT;
 }
 
-static int send_tile(void *context, tuile_display_t *display, const tuile_tile_t *tile) {
-    int result = tuile_display_window(display, tile->x, tile->y, tile->width, tile->height);
+/* Does one window do for all tiles? Their rows run on in it when they are as wide as the display and of whole bytes, and it is
+ * filled when none is left out. A device of its own may do more with a window than to set it. */
+static bool in_one_window(const tuile_config_t *config, const tuile_display_t *display, const tuile_stream_hooks_t *hooks) {
+    return !hooks->wanted && !hooks->send && display->context == &display->panel && config->format <= TUILE_RGB565_LE &&
+           config->tile_width == config->width && config->row_end == config->height && config->tile_step == 1 &&
+           !(config->tile_first | config->row_first);
+}
 
-    (void)context;
+/* whole: one window for all tiles, so that its commands need not go out between two of them. */
+static int send_tile(tuile_display_t *display, const tuile_tile_t *tile, bool whole) {
+    int result = TUILE_HAL_OK;
+
+    if (!whole || tile->y == 0) {
+        result = tuile_display_window(display, tile->x, tile->y, tile->width, whole ? display->height : tile->height);
+    }
     if (result == TUILE_HAL_OK) { result = tuile_display_write(display, tile->bytes, (size_t)tile->size_bytes); }
     return result ? result : 1;
 }
@@ -70,6 +81,7 @@ int tuile_stream_tiles(tuile_t *renderer, const tuile_scene_t *scene, tuile_disp
                        tuile_stats_t *stats) {
     const tuile_config_t *config = tuile_config(renderer);
     tuile_tile_t tile = {0};
+    const bool whole = in_one_window(config, display, hooks);
     uint32_t index = 0;
     int result, waited, ended;
 
@@ -80,7 +92,7 @@ int tuile_stream_tiles(tuile_t *renderer, const tuile_scene_t *scene, tuile_disp
     }
     if (hooks->begun) { hooks->begun(hooks->context, scene); }
     while ((result = hooks->wanted ? next(renderer, hooks, &index, &tile) : tuile_next(renderer, &tile)) > 0) {
-        result = (hooks->send ? hooks->send : send_tile)(hooks->context, display, &tile);
+        result = hooks->send ? hooks->send(hooks->context, display, &tile) : send_tile(display, &tile, whole);
         /* With one buffer the next tile overwrites this one, so there is nothing to overlap with. With two it overwrites the
          * one before, and that may still be on the wire if this one was not sent, since nothing waited for it. */
         if (result == 0 || (result > 0 && config->buffers < 2)) { result = tuile_display_wait(display); }

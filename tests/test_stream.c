@@ -287,6 +287,62 @@ static void test_stream_frame(void **state) {
     }
 }
 
+/* Tiles as wide as the display, all of them: one window, 3 commands in the place of 30. Where some are left out,
+ * each has its own. */
+static void test_stream_sends_whole_frames_into_one_window(void **state) {
+    static const struct {
+        uint16_t tile_width, tile_first, tile_step, row_first, row_end;
+        uint32_t commands;
+    } cases[] = {
+        {240, 0, 1, 0, 320, 3},  {120, 0, 1, 0, 320, 30},  {240, 1, 1, 0, 320, 30},
+        {240, 0, 2, 0, 320, 30}, {240, 0, 1, 32, 320, 30}, {240, 0, 1, 0, 288, 30},
+    };
+    static tuile_t renderer;
+
+    (void)state;
+    for (size_t i = 0; i < CHECK_COUNT(cases); i++) {
+        board_t board;
+        open_stream(&board, &renderer, NULL, 2);
+        renderer.config.tile_width = cases[i].tile_width;
+        renderer.config.tile_height = 32;
+        renderer.config.tile_first = cases[i].tile_first;
+        renderer.config.tile_step = cases[i].tile_step;
+        renderer.config.row_first = cases[i].row_first;
+        renderer.config.row_end = cases[i].row_end;
+        assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+        assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), 0);
+        memset(&board.bus.counts, 0, sizeof board.bus.counts);
+        assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), 0);
+        assert_int_equal(board.bus.counts.commands, cases[i].commands);
+        board_check_clean(&board);
+        board_check_picture(&board, 0, TUILE_WIRE_RGB565);
+        board_close(&board);
+    }
+}
+
+/* A frame that ended in the middle of the window leaves nothing behind: the next one begins at the top. */
+static void test_stream_begins_anew_after_a_frame_that_broke_off(void **state) {
+    static tuile_t renderer;
+    board_t board;
+
+    (void)state;
+    open_stream(&board, &renderer, NULL, 2);
+    renderer.config.tile_width = 240;
+    renderer.config.tile_height = 32;
+    renderer.config.tile_step = 1;
+    renderer.config.row_end = 320;
+    assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+    renderer.next_error = TUILE_ERROR_RANGE;
+    for (renderer.fail_at = 0; renderer.fail_at <= 10; renderer.fail_at++) {
+        assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), TUILE_ERROR_RANGE);
+    }
+    renderer.next_error = 0;
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), 0);
+    board_check_clean(&board);
+    board_check_picture(&board, 0, TUILE_WIRE_RGB565);
+    board_close(&board);
+}
+
 /* The simulator must show what a renderer does that says it has two buffers and has one: else the loop's overlap is not tested. */
 static void test_stream_overlaps_with_two_buffers_only(void **state) {
     static tuile_t renderer;
@@ -443,6 +499,8 @@ int main(void) {
         cmocka_unit_test(test_real_clock_differs_from_the_one_asked_for),
         cmocka_unit_test(test_work_overlaps_the_wire),
         cmocka_unit_test(test_stream_frame),
+        cmocka_unit_test(test_stream_sends_whole_frames_into_one_window),
+        cmocka_unit_test(test_stream_begins_anew_after_a_frame_that_broke_off),
         cmocka_unit_test(test_stream_overlaps_with_two_buffers_only),
         cmocka_unit_test(test_stream_refuses_a_mismatch),
         cmocka_unit_test(test_stream_refuses_tiles_that_are_not_aligned),

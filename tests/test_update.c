@@ -234,8 +234,9 @@ static void a_flight_rests_from_sums_and_comes_back(void **state) {
         boxes.box[0].colour = TUILE_COLOUR(4u * i, 255u - 4u * i, 7);
         assert_int_equal(pair_frame(&empty, 0), 153600);
         summing += pair.update.summing;
-        /* Windows as without: one a tile, so nothing more is on the wire. */
-        assert_int_equal(pair.board[1].bus.counts.command_bytes, pair.board[0].bus.counts.command_bytes);
+        /* One window for each of 20 tiles, of 5, 5 and 1 bytes; without, one for all. */
+        assert_int_equal(pair.board[1].bus.counts.command_bytes, 20 * 11);
+        assert_int_equal(pair.board[0].bus.counts.command_bytes, 11);
     }
     assert_in_range(summing, 3, 8); /* of 64: two in twenty-two */
     unsigned frames = 0;

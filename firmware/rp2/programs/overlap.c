@@ -11,8 +11,7 @@
 #include "../../player.h"
 
 #define FRAMES 8u
-/* The last tile has nothing to overlap with, cheap tiles wait for the wire, and each costs a window; of 12 to 40 rows 22 add least.
- */
+/* The last tile has nothing to overlap with, cheap tiles wait for the wire, and lower ones take longer to draw. */
 #define TILE_ROWS 22u
 
 void frame_begins(void);
