@@ -85,24 +85,28 @@ void textured_thumb_far(textured_far_t *face) {
     LINE(".equ TOP, COPY + 48")       /* and height */ \
     LINE(".equ DEPTH, COPY + 56")     /* and stride */ \
     LINE(".equ S_INSIDE, COPY + 64") \
-    LINE(".equ FROM_CORNER, COPY + 68") \
-    LINE(".equ ACROSS, COPY + 72") \
-    LINE(".equ ONE, COPY + 76") \
-    LINE(".equ LOG2_ONE, COPY + 80") \
-    LINE(".equ ALWAYS, COPY + 84") \
-    LINE(".equ UPPER, COPY + 88")     /* and pixels_up */ \
-    LINE(".equ LOWER, COPY + 96") \
-    LINE(".equ UP, COPY + 104")       /* and down */ \
-    LINE(".equ T_UNIT, COPY + 112") \
-    LINE(".equ S_UNIT, COPY + 116") \
+    LINE(".equ ACROSS, COPY + 68") \
+    LINE(".equ ONE, COPY + 72") \
+    LINE(".equ LOG2_ONE, COPY + 76") \
+    LINE(".equ LEVEL, COPY + 80") \
     LINE(".equ LEFT, COPY + 120")     /* and width */ \
-    LINE(".equ COPIED, 128") \
+    LINE(".equ OTHER, COPY + 128")    /* and mask, texels */ \
+    LINE(".equ COPIED, 176") \
     LINE(".equ FAR, COPY + COPIED")   /* textured_far_t */ \
-    LINE(".equ FRAME, FAR + 56")
+    LINE(".equ FRAME, FAR + 56") \
+    LINE(".equ FROM_CORNER, 0")       /* of a level */ \
+    LINE(".equ ALWAYS, 4") \
+    LINE(".equ UPPER, 8")             /* and pixels_up */ \
+    LINE(".equ LOWER, 16") \
+    LINE(".equ UP, 20")               /* and down */ \
+    LINE(".equ T_UNIT, 28") \
+    LINE(".equ S_UNIT, 32")
 _Static_assert(offsetof(textured_run_t, palette) == 16 && offsetof(textured_run_t, source) == 32 &&
-                   offsetof(textured_run_t, s_inside) == 64 && offsetof(textured_run_t, lower) == 96 &&
-                   offsetof(textured_run_t, left) == 120 && offsetof(textured_run_t, list) == 128 && sizeof(textured_far_t) == 48 &&
-                   offsetof(textured_far_t, light_dy) == 44,
+                   offsetof(textured_run_t, s_inside) == 64 && offsetof(textured_run_t, level) == 80 &&
+                   offsetof(textured_run_t, left) == 120 && offsetof(textured_run_t, other) == 128 &&
+                   offsetof(textured_run_t, list) == 176 && sizeof(textured_run_level_t) == 40 &&
+                   offsetof(textured_run_level_t, lower) == 16 && offsetof(textured_run_level_t, s_unit) == 32 &&
+                   sizeof(textured_far_t) == 48 && offsetof(textured_far_t, light_dy) == 44,
                "offsets in the assembly");
 _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && offsetof(record_t, d2) == 5 &&
                    offsetof(record_t, material) == 6 && offsetof(record_surface_t, source) == 8 && sizeof(vertex_t) == 8 &&
@@ -299,6 +303,10 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("stm r11!, {r1-r8}")
         LINE("ldm r0!, {r1-r8}")
         LINE("stm r11!, {r1-r8}")
+        LINE("ldm r0!, {r1-r8}")
+        LINE("stm r11!, {r1-r8}")
+        LINE("ldm r0!, {r1-r4}")
+        LINE("stm r11!, {r1-r4}")
         LINE("ldm r0, {r0, r1, r2}")        /* list, end, count */
         LINE("strd r2, r1, [sp, #COUNT]")
         LINE("b 11f")
@@ -359,11 +367,6 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("rsb r12, r8, r12, asr #16")
         LINE("ldr lr, [sp, #S_INSIDE]")
         LINE("and r0, r0, lr")
-        LINE("ldr lr, [sp, #FROM_CORNER]")
-        LINE("lsls r0, r0, #8")
-        LINE("asr r0, r0, lr")
-        LINE("lsl r8, r8, #8")
-        LINE("asr r8, r8, lr")
         LINE("strd r0, r8, [sp, #CORNER]")
         LINE("eor lr, r9, r9, asr #31")
         LINE("eor r0, r10, r10, asr #31")
@@ -403,22 +406,29 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("mul r0, r9, r12")
         LINE("mls r0, r11, r10, r0")
         LINE("eor r0, r0, r0, asr #31")
-        LINE("ldrd r1, lr, [sp, #UPPER]")
+        LINE("ldrd r1, lr, [sp, #LEVEL + UPPER]")
         LINE("lsl lr, r8, lr")
         LINE("lsr r1, r0, r1")
         LINE("cmp r1, lr")
-        LINE("bhi 90f")
-        LINE("ldr r1, [sp, #LOWER]")
+        LINE("bhi 91f")
+        LINE("ldr r1, [sp, #LEVEL + LOWER]")
         LINE("lsrs r0, r0, r1")
-        LINE("ldr r1, [sp, #ALWAYS]")
+        LINE("ldr r1, [sp, #LEVEL + ALWAYS]")
         LINE("orrs r0, r0, r1")
         LINE("cmp r0, lr")
-        LINE("bls 90f")
-        LINE("mvn r1, #0x80000000")
+        LINE("bls 91f")
+        LINE("15: mvn r1, #0x80000000")
         LINE("udiv r8, r1, r8")
+        LINE("ldrd r0, r1, [sp, #CORNER]")
+        LINE("ldr lr, [sp, #LEVEL + FROM_CORNER]")
+        LINE("lsls r0, r0, #8")
+        LINE("asr r0, r0, lr")
+        LINE("lsls r1, r1, #8")
+        LINE("asr r1, r1, lr")
+        LINE("strd r0, r1, [sp, #CORNER]")
 
         /* steps: r0 and r9 of s, right and down, r11 and r10 of t */
-        LINE("ldrd r0, lr, [sp, #UP]")
+        LINE("ldrd r0, lr, [sp, #LEVEL + UP]")
         LINE("asr lr, r8, lr")
         LINE("lsl r9, r9, r0")
         LINE("lsl r10, r10, r0")
@@ -452,11 +462,11 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("add r12, lr, r12, asr #4")
         LINE("ldr lr, [sp, #CORNER + 4]")
         LINE("add r1, lr, r1, asr #4")
-        LINE("ldr lr, [sp, #T_UNIT]")
+        LINE("ldr lr, [sp, #LEVEL + T_UNIT]")
         LINE("mul r1, r1, lr")
         LINE("mul r11, r11, lr")
         LINE("mul r10, r10, lr")
-        LINE("ldr lr, [sp, #S_UNIT]")
+        LINE("ldr lr, [sp, #LEVEL + S_UNIT]")
         LINE("mla r1, r12, lr, r1")
         LINE("mla r11, r0, lr, r11")
         LINE("mla r10, r9, lr, r10")
@@ -555,6 +565,38 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("ldr r8, [sp, #FAR + 44]")
         LINE("strd r5, r8, [sp, #DEPTH_DY]")
         LINE("b 14b")
+
+        /* another level: the other one? Then they change places. */
+        LINE("91: mul r0, r9, r12")
+        LINE("mls r0, r11, r10, r0")
+        LINE("eor r0, r0, r0, asr #31")
+        LINE("ldr r1, [sp, #OTHER + UPPER]")
+        LINE("lsr r1, r0, r1")
+        LINE("cmp r1, lr")
+        LINE("bhi 90f")
+        LINE("ldr r1, [sp, #OTHER + LOWER]")
+        LINE("lsrs r0, r0, r1")
+        LINE("ldr r1, [sp, #OTHER + ALWAYS]")
+        LINE("orrs r0, r0, r1")
+        LINE("cmp r0, lr")
+        LINE("bls 90f")
+        LINE("push {r2-r7, r9-r12}")
+        LINE("add r0, sp, #40 + LEVEL")
+        LINE("add r1, sp, #40 + OTHER")
+        LINE("ldm r0, {r2-r6}")
+        LINE("ldm r1, {r7, r9-r12}")
+        LINE("stm r0!, {r7, r9-r12}")
+        LINE("stm r1!, {r2-r6}")
+        LINE("ldm r0, {r2-r6}")
+        LINE("ldm r1, {r7, r9-r12}")
+        LINE("stm r0!, {r7, r9-r12}")
+        LINE("stm r1!, {r2-r6}")
+        LINE("ldrd r2, r3, [sp, #40 + COPY]")
+        LINE("ldrd r4, r5, [r1]")
+        LINE("strd r2, r3, [r1]")
+        LINE("strd r4, r5, [sp, #40 + COPY]")
+        LINE("pop {r2-r7, r9-r12}")
+        LINE("b 15b")
 
         /* nothing is known of the face: is it short, and inside the tile's columns? */
         LINE("80:")

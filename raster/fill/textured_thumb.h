@@ -5,6 +5,14 @@
 #include "../frame/frame.h"
 #include "small.h"
 
+/* Of a level: as in textured_level_t. */
+typedef struct textured_run_level {
+    uint32_t from_corner, always, upper;
+    uint32_t pixels_up; /* textured_material_t */
+    uint32_t lower, up, down, t_unit, s_unit;
+    uint32_t unused;
+} textured_run_level_t;
+
 /* What the loop reads, and where it has come to. The assembly copies all but the last three to its stack. */
 typedef struct textured_run {
     uint32_t mask; /* textured_map_t: mask, with shift in its lowest 8 bits, which are 0 there */
@@ -18,30 +26,31 @@ typedef struct textured_run {
     uint32_t source; /* of t->textured_source: that of the faces */
     uint32_t known;  /* not 0: they are short and inside the tile's columns */
     const vertex_t *vertices;
-    const uint8_t *texcoords; /* of slot 0 */
-    int32_t top;              /* 16 * the tile's first row + 8 */
-    int32_t height;           /* rows */
-    uint16_t *depth;          /* of the pixel in the tile's first row and in column 0 of the window */
-    int32_t stride;           /* bytes */
-    int32_t s_inside;         /* from here on as in textured_material_t and its level */
-    uint32_t from_corner;
-    uint32_t across;   /* less 4 */
-    uint32_t one;      /* more 4 */
-    uint32_t log2_one;
-    uint32_t always, upper, pixels_up, lower;
-    uint32_t unused;
-    uint32_t up, down, t_unit, s_unit;
-    int32_t left, width; /* small_tile_t */
-    uint32_t list;       /* number + 1 of the next face's record */
-    uint16_t *end;       /* where the number of the next face that reaches below the tile is put */
-    uint32_t count;      /* faces that were drawn */
+    const uint8_t *texcoords;   /* of slot 0 */
+    int32_t top;                /* 16 * the tile's first row + 8 */
+    int32_t height;             /* rows */
+    uint16_t *depth;            /* of the pixel in the tile's first row and in column 0 of the window */
+    int32_t stride;             /* bytes */
+    int32_t s_inside;           /* textured_material_t */
+    uint32_t across;            /* its own, less 4 */
+    uint32_t one;               /* its own, more 4 */
+    uint32_t log2_one;          /* uv_bits */
+    textured_run_level_t level; /* `mask` and `texels` belong to it */
+    int32_t left, width;        /* small_tile_t */
+    textured_run_level_t other; /* another one that faces may want; */
+    uint32_t other_mask;        /* its own */
+    const void *other_texels;
+    uint32_t list;  /* number + 1 of the next face's record */
+    uint16_t *end;  /* where the number of the next face that reaches below the tile is put */
+    uint32_t count; /* faces that were drawn */
 } textured_run_t;
 
 /* What rounds red, blue and, by its low half, green. The pixels of a row are counted in the bits from 22 on, less 1. */
 #define TEXTURED_RUN_ROUND (0x10020u - (1u << 22))
 
 /* Draws faces from run->list on with light at the corners, until it meets one that it leaves to the caller: behind the limit, no
- * triangle, of another source or level, not short, not inside the tile's columns, or one that textured_map_make looks at twice. */
+ * triangle, of another source, or a level that is neither of the two, not short, not inside the tile's columns, or one that
+ * textured_map_make looks at twice. */
 void textured_thumb(textured_run_t *run);
 
 #endif

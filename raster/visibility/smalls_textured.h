@@ -27,28 +27,42 @@ TUILE_INLINE textured_run_t smalls_textured_run(const tuile_t *t, walk_t *walk, 
                             .end = walk->left.end ? walk->left.end : &walk->left.first};
 }
 
-/* What t->textured_source and the current level decide. */
-static inline void smalls_textured_source(const tuile_t *t, textured_run_t *run) {
-    const textured_material_t *m = &t->textured_last;
-    const textured_level_t *level = &m->level;
+/* What t->textured_source decides. */
+TUILE_INLINE void smalls_textured_source(const tuile_t *t, textured_run_t *run) {
     run->source = t->textured_source;
     run->texcoords = t->textured_texcoords;
-    run->mask = level->mask | level->shift;
-    run->texels = level->texels;
+}
+
+/* What its material decides. */
+static inline void smalls_textured_material(const tuile_t *t, textured_run_t *run) {
+    const textured_material_t *m = &t->textured_last;
     run->palette = m->palette;
     run->s_inside = m->s_inside;
-    run->from_corner = level->from_corner;
     run->across = (uint32_t)m->across - 4u;
     run->one = (uint32_t)m->one + 4u;
     run->log2_one = m->uv_bits;
-    run->always = level->always;
-    run->upper = level->upper;
-    run->lower = level->lower;
-    run->pixels_up = m->pixels_up;
-    run->up = level->up;
-    run->down = level->down;
-    run->t_unit = level->t_unit;
-    run->s_unit = level->s_unit;
+    run->level.upper = run->level.lower = 31; /* none */
+    run->level.always = 0;
+}
+
+/* What the current level decides. The one before it is the other one. */
+static inline void smalls_textured_level(const tuile_t *t, textured_run_t *run) {
+    const textured_material_t *m = &t->textured_last;
+    const textured_level_t *level = &m->level;
+    run->other = run->level;
+    run->other_mask = run->mask;
+    run->other_texels = run->texels;
+    run->mask = level->mask | level->shift;
+    run->texels = level->texels;
+    run->level = (textured_run_level_t){.from_corner = level->from_corner,
+                                        .always = level->always,
+                                        .upper = level->upper,
+                                        .pixels_up = m->pixels_up,
+                                        .lower = level->lower,
+                                        .up = level->up,
+                                        .down = level->down,
+                                        .t_unit = level->t_unit,
+                                        .s_unit = level->s_unit};
 }
 
 /* A face that the assembly leaves alone. False: it is not to be drawn so. */
@@ -75,8 +89,8 @@ static inline bool smalls_textured_beside(tuile_t *t, walk_t *walk, textured_run
     return true;
 }
 
-/* Makes the level of a face the current one, where it is another. */
-static inline bool smalls_textured_level(tuile_t *t, const record_t *record) {
+/* Makes the level of a face the current one. False: it is that already, or there is none. */
+static inline bool smalls_textured_find(tuile_t *t, const record_t *record) {
     const vertex_t *v0 = t->vertices + record->v0, *v1 = v0 + record->d1, *v2 = v0 + record->d2;
     const small_corners_t c = {v0->x, v0->y, v1->x - v0->x, v1->y - v0->y, v2->x - v0->x, v2->y - v0->y};
     if (!small_short(&c)) { return false; }
@@ -91,16 +105,22 @@ static inline void smalls_textured_thumb(tuile_t *t, walk_t *walk, uint32_t limi
     small_tile_t tile = small_tile(&t->tile);
     tile.colour = (t->working ? (uint16_t *)t->working : (uint16_t *)(void *)t->colours[t->next_buffer]) - tile.depth;
     textured_run_t run = smalls_textured_run(t, walk, limit, &tile);
+    uint32_t material = UINT32_MAX, level = UINT32_MAX; /* of the run: by their numbers */
     for (;;) {
         textured_thumb(&run);
         if (run.list - 1u >= limit) { break; }
         const record_t *record = frame_record(t, run.list - 1u);
         if (!frame_record_is_triangle(record) || !textured_fits(t, record)) { break; }
-        if (run.source == t->textured_source && !smalls_textured_level(t, record) &&
+        if (run.source == t->textured_source && !smalls_textured_find(t, record) &&
             !smalls_textured_beside(t, walk, &run, record, &tile)) {
             break;
         }
+        const uint32_t number = t->textured_instance | (uint32_t)t->textured_number << 16;
         smalls_textured_source(t, &run);
+        if (material != number) { smalls_textured_material(t, &run); }
+        if (material != number || level != t->textured_last.level.number) { smalls_textured_level(t, &run); }
+        material = number;
+        level = t->textured_last.level.number;
     }
     walk->list = (uint16_t)run.list;
     walk->left.end = run.end == &walk->left.first ? NULL : run.end;
