@@ -60,23 +60,8 @@ void textured_thumb_far(textured_far_t *face) {
     LINE(".equ BEND_SLOPE, 0")   /* of that side, and of the other */ \
     LINE(".equ OTHER_SLOPE, 4") \
     LINE(".equ STRIDE, 8")       /* bytes */ \
-    LINE(".equ DEPTH_DY, 12") \
-    LINE(".equ LIGHT_DY, 16") \
-    LINE(".equ MAP_DY, 20") \
-    LINE(".equ FIRST, 24")       /* address of depth in the face's first row and column */ \
-    LINE(".equ ROWS_LEFT, 28")   /* of the tile, from that row on */ \
-    LINE(".equ START, 32")       /* small_start(0) */ \
-    LINE(".equ NEXT_X, 36")      /* the side below the bend, a row before its first, and its slope */ \
-    LINE(".equ MAP, 44")         /* at the first centre, and its dx */ \
-    LINE(".equ TO_X, 52")        /* and to_y */ \
-    LINE(".equ CORNER, 60")      /* s and t of the first corner, 1/256 texel */ \
-    LINE(".equ DEPTH_LIGHT, 68") /* of the first corner */ \
-    LINE(".equ LIST, 72")        /* the face's record: number + 1, first word */ \
-    LINE(".equ RUN, 80")         /* textured_run_t */ \
-    LINE(".equ COUNT, 84") \
-    LINE(".equ END, 88") \
-    LINE(".equ ROW, 92")         /* what rows have in r8, r9, r11 and r12; behind it what pixels have there */ \
-    LINE(".equ COPY, 108")       /* of the run */ \
+    LINE(".equ ROW, 12")         /* what rows have in r8, r9, r11 and r12; behind it what pixels have there */ \
+    LINE(".equ COPY, 28")        /* of the run */ \
     LINE(".equ PALETTE, COPY + 16") \
     LINE(".equ LIMIT, COPY + 20") \
     LINE(".equ ARENA, COPY + 24")     /* and bytes of a record */ \
@@ -92,8 +77,23 @@ void textured_thumb_far(textured_far_t *face) {
     LINE(".equ LEFT, COPY + 120")     /* and width */ \
     LINE(".equ OTHER, COPY + 128")    /* and mask, texels */ \
     LINE(".equ COPIED, 176") \
-    LINE(".equ FAR, COPY + COPIED")   /* textured_far_t */ \
-    LINE(".equ FRAME, FAR + 56") \
+    LINE(".equ DEPTH_DY, 204") \
+    LINE(".equ LIGHT_DY, 208") \
+    LINE(".equ MAP_DY, 212") \
+    LINE(".equ FIRST, 216")       /* address of depth in the face's first row and column */ \
+    LINE(".equ ROWS_LEFT, 220")   /* of the tile, from that row on */ \
+    LINE(".equ START, 224")       /* small_start(0) */ \
+    LINE(".equ NEXT_X, 228")      /* the side below the bend, a row before its first, and its slope */ \
+    LINE(".equ MAP, 236")         /* at the first centre, and its dx */ \
+    LINE(".equ TO_X, 244")        /* and to_y */ \
+    LINE(".equ CORNER, 252")      /* s and t of the first corner, then in 1/256 texel */ \
+    LINE(".equ DEPTH_LIGHT, 260") /* of the first corner */ \
+    LINE(".equ LIST, 264")        /* the face's record: number + 1, first word */ \
+    LINE(".equ RUN, 272")         /* textured_run_t */ \
+    LINE(".equ COUNT, 276") \
+    LINE(".equ END, 280") \
+    LINE(".equ FAR, 284")         /* textured_far_t */ \
+    LINE(".equ FRAME, 340") \
     LINE(".equ FROM_CORNER, 0")       /* of a level */ \
     LINE(".equ ALWAYS, 4") \
     LINE(".equ UPPER, 8")             /* and pixels_up */ \
@@ -205,7 +205,7 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
  * from an index in r2 to a colour there. */
 #define ROWS(ENTRY, LEFT, RIGHT, TEXEL) \
     LINE("30: ldm sp, {r2, r4, r5}") \
-    LINE("add r9, r9, r2") \
+    LINE("31: add r9, r9, r2") \
     LINE("add r11, r11, r4") \
     LINE("adds r0, r0, r5") \
     LINE("add r5, sp, #DEPTH_DY") \
@@ -251,11 +251,13 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("adds r6, r6, r7") \
     LINE("subs r12, r12, #0x400000") \
     LINE("bcs 32b") \
-    LINE("add r2, sp, #ROW") \
-    LINE("ldm r2, {r8, r9, r11, r12}") \
+    LINE("ldm sp, {r2, r4, r5, r8, r9, r11, r12}") \
+    LINE("adds r8, r8, #0x10000") \
+    LINE("bmi 31b") \
+    LINE("b 36f") \
     LINE("35: adds r8, r8, #0x10000") \
     LINE("bmi 30b") \
-    LINE("beq 10b") \
+    LINE("36: beq 10b") \
     LINE("rsbs r8, r8, #0") \
     LINE("lsls r8, r8, #16") \
     LINE("ldrd r9, r2, [sp, #NEXT_X]") \
