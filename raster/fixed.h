@@ -94,6 +94,21 @@ TUILE_INLINE int64_t fixed_mul_wide(int32_t a, int32_t b) {
     return FIXED_BY_HALVES ? fixed_mul_wide_by_halves(a, b) : (int64_t)a * b;
 }
 
+TUILE_INLINE int32_t fixed_mul_round_by_halves(int32_t a, int32_t b) {
+    const int32_t ah = a >> 16, bh = b >> 16;
+    const uint32_t al = fixed_low_half((uint32_t)a), bl = fixed_low_half((uint32_t)b);
+    const int32_t cross = ah * (int32_t)bl, other = bh * (int32_t)al; /* as above */
+    const uint32_t middle = (al * bl >> 16) + fixed_low_half((uint32_t)cross) + fixed_low_half((uint32_t)other) + (1u << 15);
+    return ah * bh + (cross >> 16) + (other >> 16) + (int32_t)(middle >> 16);
+}
+
+/* a * b / 2^32, rounded, a half up. */
+TUILE_INLINE int32_t fixed_mul_round(int32_t a, int32_t b) {
+    if (FIXED_BY_HALVES) { return fixed_mul_round_by_halves(a, b); }
+    const int64_t product = (int64_t)a * b;
+    return (int32_t)((uint32_t)(product >> 32) + ((uint32_t)product >> 31));
+}
+
 TUILE_INLINE uint64_t fixed_mul_part_by_halves(uint64_t a, uint32_t b) {
     const uint32_t low = (uint32_t)a;
     const uint32_t first = fixed_low_half(low) * b, second = (low >> 16) * b, third = (uint32_t)(a >> 32) * b;

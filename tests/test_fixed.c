@@ -104,6 +104,8 @@ static void products_by_halves_are_exact(void **state) {
         assert_true(fixed_mul_wide_by_halves(a, b) == (int64_t)a * b);
         assert_true(fixed_mul_part_by_halves(wide, part) == wide * part);
         assert_true(fixed_mul_wide(a, b) == (int64_t)a * b);
+        assert_true(fixed_mul_round_by_halves(a, b) == ((int64_t)a * b + (INT64_C(1) << 31)) >> 32);
+        assert_true(fixed_mul_round(a, b) == ((int64_t)a * b + (INT64_C(1) << 31)) >> 32);
         assert_true(fixed_mul_part(wide, part) == wide * part);
         assert_true(fixed_mul_signed_part(wide, -(int_fast32_t)part) == 0 - wide * part);
     }

@@ -79,8 +79,7 @@ TUILE_INLINE textured_scale_t textured_scale(int32_t reciprocal, unsigned up) {
 
 TUILE_INLINE int32_t textured_step(int32_t determinant, textured_scale_t scale) {
     if (FIXED_WIDE_REGISTERS) { return (int32_t)((determinant * scale.factor + (INT64_C(1) << 31)) >> 32); }
-    const int64_t product = fixed_mul_wide((int32_t)((uint32_t)determinant << scale.up), (int32_t)scale.factor);
-    return (int32_t)((uint32_t)(product >> 32) + ((uint32_t)product >> 31));
+    return fixed_mul_round((int32_t)((uint32_t)determinant << scale.up), (int32_t)scale.factor);
 }
 
 /* Makes the map of a face of such a material in white light, v at the centre of the pixel that lies to_x, to_y (0 ... 15)

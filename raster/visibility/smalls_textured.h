@@ -80,7 +80,7 @@ static inline bool smalls_textured_beside(tuile_t *t, walk_t *walk, textured_run
     run->list = record->next;
     run->count++;
     walk->left.end = run->end == &walk->left.first ? NULL : run->end;
-    if (!small_inside(&face.corners, tile) && t->tile_columns > 1) {
+    if (t->tile_columns > 1) {
         columns_hand_on(t, number, (uint32_t)t->tile.left / t->config.tile_width, (int32_t)tile->bottom, &walk->right, &walk->left);
     } else if (reaches) {
         list_append(t, &walk->left, number);

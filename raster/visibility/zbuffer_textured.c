@@ -1,6 +1,7 @@
 #include "../tune.h"
 #if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC optimize("no-ivopts") /* 2 % fewer on Cortex-M: what is used in loops over rows and pixels stays in registers */
+/* 2 % fewer on Cortex-M: what is used in loops over rows and pixels stays in registers. no-tree-sink: 0.7 % on M0+. */
+#pragma GCC optimize("no-ivopts", "no-tree-sink")
 #if defined(__x86_64__)
 #pragma GCC optimize("no-gcse", "ira-region=one") /* 1 % fewer here, 1 % more there */
 #endif
