@@ -45,7 +45,7 @@ mutant flag_left_standing spi '/^void dma2_stream_3(void) {/,/^}/s/DMA2_LIFCR = 
 mutant no_interrupt spi '/NVIC_ISER1 =/d' 'the core sleeps, and nothing will wake it'
 mutant clock_changed_while_on spi 's/^    SPI1_CR1 = control;//' 'SPI1 changes its clock while it is on'
 mutant not_waited_for spi 's/if (!sending) { return TUILE_HAL_OK; }/if (sending || !sending) { return TUILE_HAL_OK; }/' \
-    'SPI1'
+    "DMA2's stream 3 is written to while it moves data"
 mutant flash_too_fast board '/FLASH_ACR = /d' 'flash has 0 wait states at 100000000 Hz'
 mutant regulator_too_low board '/PWR_CR |= /d' "the regulator's scale 2 does not allow 100000000 Hz"
 mutant crystal_not_awaited board '/RCC_CR_HSERDY/d' 'the PLL is started before its crystal is ready'
