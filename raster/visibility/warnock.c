@@ -358,7 +358,6 @@ static size_t faces_bytes(uint32_t count) { return TUILE_ALIGN8((sizeof(warnock_
 static int warnock_draw_tile(tuile_t *t, uint16_t row) {
     const window_t tile = {(int16_t)t->tile.left, (int16_t)t->tile.top, (int16_t)t->tile.right, (int16_t)t->tile.bottom};
     size_t room;
-    uint32_t asked = 0; /* faces that there was to be room for */
     subdivision_t s;
     row_enter(t, row);
     s.t = t;
@@ -371,11 +370,14 @@ static int warnock_draw_tile(tuile_t *t, uint16_t row) {
         window_t box;
         list = record->next;
         if (!warnock_face_box(t, record, &tile, &box)) { continue; }
-        asked = s.count + 1;
-        if (faces_bytes(asked) > room) { return FRAME_FULL; }
-        if (warnock_face_start(t, &s.faces[s.count], number, &box)) { s.count++; }
+        if (faces_bytes(s.count + 1) > room) { return FRAME_FULL; }
+        if (warnock_face_start(t, &s.faces[s.count], number, &box)) {
+            s.count++;
+        } else {
+            pass_measure(t, faces_bytes(s.count + 1));
+        }
     }
-    pass_measure(t, faces_bytes(asked));
+    pass_measure(t, faces_bytes(s.count));
     s.order = (uint16_t *)(void *)(s.faces + s.count);
     for (uint32_t i = 0; i < s.count; i++) {
         s.order[i] = (uint16_t)i;
