@@ -17,7 +17,7 @@ typedef struct small_run {
     int32_t stride;        /* bytes */
     uint32_t record_bytes; /* with light: not read, those of record_t */
     const uint16_t *ramp;  /* by the light of pixels, or flat of records; flat: NULL: `given` is the colour */
-    ptrdiff_t colour;      /* from a pixel's depth to its colour, bytes, less 2 */
+    ptrdiff_t colour;      /* from a pixel's depth to its colour, bytes */
     int32_t material;      /* of the ramp */
     int32_t left, width;   /* small_tile_t */
     uint32_t given;

@@ -16,7 +16,7 @@ TUILE_INLINE small_run_t smalls_run(tuile_t *t, walk_t *walk, uint32_t limit, co
                          .depth = tile->depth - tile->first,
                          .stride = (int32_t)(tile->stride * (small_int_t)sizeof(uint16_t)),
                          .record_bytes = t->record_bytes,
-                         .colour = tile->colour * (ptrdiff_t)sizeof(uint16_t) - (ptrdiff_t)sizeof(uint16_t),
+                         .colour = tile->colour * (ptrdiff_t)sizeof(uint16_t),
                          .material = -1,
                          .left = tile->left,
                          .width = tile->width,

@@ -3,14 +3,12 @@
 # vertex: the vertex stage. cull: transforms, instances and clusters that are dropped. setup: faces from clusters to sides and
 # gradients. span: rows and pixels. helpers: the compiler's functions for what the machine has no instruction for, and copies.
 # A line counts for the file that it stands in, wherever it was inlined; those of fixed.h for the function's.
-# frames: how many; small: the lines of fill/small.h that are spans, FIRST-LAST; thumb, texels: those of fill/small_thumb.c
-# and fill/textured_thumb.c, LINE LINE ...
+# frames: how many; small: the lines of fill/small.h that are spans, FIRST-LAST; thumb: those of assembly in fill/, "/FILE LINE;..."
 BEGIN { split(small, range, "-") }
 function phase(fn, file, line) {
     if (fn ~ /^(frame_fill_words|tile_clear|shade_clear|zbuffer_clear)$/ || fn ~ /memset/) return "clear"
     if (file ~ /fill\/small\.h$/) return line + 0 >= range[1] + 0 && line + 0 <= range[2] + 0 ? "span" : "setup"
-    if (file ~ /fill\/small_thumb\.c$/) return index(" " thumb " ", " " line " ") ? "span" : "setup"
-    if (file ~ /fill\/textured_thumb\.c$/) return index(" " texels " ", " " line " ") ? "span" : "setup"
+    if (match(file, /\/[a-z_]*_thumb[a-z_]*\.c$/) && file ~ /fill\//) return index(thumb, substr(file, RSTART) " " line ";") ? "span" : "setup"
     if (file ~ /geometry\/vertex(_thumb)?\.[ch]$/) return "vertex"
     if (file ~ /geometry\/(cull|transform|wide|vector|camera)\.[ch]$/) return "cull"
     if (file ~ /fill\/(span\.h|textured\.[ch]|triangle\.c|polygon\.c|active\.[ch])$/ || file ~ /surface\/(surface|texel|texture_fetch|light|fog|fog_stage)\.[ch]$/ || file ~ /frame\/shade\.c$/ || file ~ /layer\//) return "span"

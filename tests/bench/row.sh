@@ -15,8 +15,9 @@ mkdir -p "$out"
 # Which lines of fill/small.h are rows and pixels: see there; and which statements of its twins in assembly, where there are any.
 small=$(awk '/^\/\* ---- rows and pixels/ { first = NR } /^\/\* ---- set-up/ { last = NR } END { print first "-" last }' \
     "$ROOT/raster/fill/small.h")
-rows_of() { awk '/^ *__asm__ volatile\(ROWS/ { printf "%s%s", separator, NR; separator = " " }' "$ROOT/raster/fill/$1" 2>/dev/null || true; }
-thumb=$(rows_of small_thumb.c) texels=$(rows_of textured_thumb.c)
+thumb=$(cd "$ROOT/raster/fill" && for file in *_thumb*.c; do
+    [ ! -f "$file" ] || awk -v file="$file" '/^ *__asm__ volatile\(ROWS/ { print "/" file " " FNR ";" }' "$file"
+done | tr -d '\n')
 
 if [ "$target" = x86-64 ]; then
     count "$out" "$program" "$model" "$width" "$height" "${tile%x*}" "${tile#*x}" "$shade" "$memory" "$method" || exit $?
@@ -35,7 +36,7 @@ fi
 frames=$(figure "$out" frames)
 awk -v frames="$frames" '{ self[$2] += $1 } END { for (f in self) printf "%12.0f %s\n", self[f] / frames, f }' "$out/lines.txt" |
     sort -rn >"$out/functions.txt"
-awk -v frames="$frames" -v small="$small" -v thumb="$thumb" -v texels="$texels" -f "$here/phases.awk" "$out/lines.txt" | {
+awk -v frames="$frames" -v small="$small" -v thumb="$thumb" -f "$here/phases.awk" "$out/lines.txt" | {
     read -r total vertex cull setup span clear resolve helpers ours
     [ "$total" -gt 0 ] || { echo "nothing was counted" >&2; exit 1; }
     echo "faces $(figure "$out" faces) frames $frames passes $(figure "$out" passes) vertices $(figure "$out" vertices)" \

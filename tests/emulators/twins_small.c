@@ -19,7 +19,7 @@ void __wrap_small_thumb_flat(small_run_t *run);
 enum {
     ROUNDS = 12000,
     FACES = 12,
-    SIDE = 40,         /* the largest tile */
+    SIDE = 48,         /* the largest tile */
     AROUND = 3 * SIDE, /* pixels before and behind it, which must stay as they are */
     RAMPS = 3,
     PIXELS = SIDE * SIDE + 2 * AROUND,
@@ -81,7 +81,7 @@ static tuile_t t;
 
 /* What a case is drawn in; lists of columns.h are not asked for. */
 static void random_tile(random_source_t *random) {
-    const int32_t width = random_between(random, 4, SIDE), height = random_between(random, 1, SIDE);
+    const int32_t width = random_between(random, random_one_in(random, 2) ? 4 : 34, SIDE), height = random_between(random, 1, SIDE);
     const bool columns = random_one_in(random, 3);
     const int32_t column = columns ? random_between(random, 0, 2) : 0;
     const int32_t top = random_one_in(random, 2) ? 0 : random_between(random, 0, 1900);
@@ -124,6 +124,13 @@ static void random_triangle(random_source_t *random, vertex_t *v) {
                               (int16_t)clamped(y + random_between(random, 0, size), -32760, 32752),
                               (uint32_t)clamped(depth, VERTEX_DEPTH_MIN, VERTEX_DEPTH_MAX) << 8 | (uint32_t)light};
             if (even && i == 2) { v[2].y = v[random_bits(random) & 1].y; } /* flat above or below */
+        }
+        if (random_one_in(random, 12)) { /* a side at the limit of short ones */
+            const int corner = random_between(random, 0, 2), next = (corner + 1) % 3, last_one = (corner + 2) % 3;
+            const int32_t side = SHORT_SIDE + random_between(random, -1, 1);
+            v[corner].x = (int16_t)(16 * tile->left + random_between(random, -7, 40));
+            v[next].x = (int16_t)(v[corner].x + side);
+            v[last_one].x = (int16_t)(v[corner].x + random_between(random, 0, side));
         }
         if (random_one_in(random, 16)) { v[1].x = (int16_t)(v[0].x < 0 ? 32752 : v[0].x > 0 ? -32760 : v[1].x); }
         if (area_of(v) < 0) {

@@ -1,0 +1,136 @@
+/* Flat small triangles in Thumb-2: fill/small_thumb.c. */
+#include "../tune.h"
+
+#include "../assembly.h"
+#include "small_thumb.h"
+
+#if ASSEMBLY_THUMB
+
+#include "small_thumb_parts.h"
+
+/* clang-format off */
+
+#define RECORD LINE("ldr r3, [sp, #16 + RECORD_BYTES]") LINE("mls r1, r0, r3, r1")
+
+/* The slope of the bend's side remains in lr. */
+#define KEEP LINE("str r5, [sp, #OTHER_SLOPE]") LINE("push {r0, r2, r3, r8, r11, lr}")
+
+/* From the first row on: r0 address, r2 first column, r8 the bend's side, r9 -rows * 2^16, r11 the other side, r6 and r7 value
+ * and colour. r1 is at column 0 until it is moved. */
+#define FIRST \
+    LINE("14: cmp r2, r4") \
+    LINE("pop {r0, r2, r8, r9, r11, lr}") \
+    LINE("ldrd r7, r6, [sp, #COLOUR]") \
+    LINE("mla r1, r3, r2, r1") \
+    LINE("bge 51f")
+
+/* r12: the column that r0 and r1 are of. */
+#define ROWS(ENTRY, LEFT, RIGHT) \
+    LINE(ENTRY) \
+    LINE("asr r12, " RIGHT ", #20") \
+    LINE("sub r5, r12, r2") \
+    LINE("b 31f") \
+    LINE("30: ldrd r2, r4, [sp, #OTHER_SLOPE]") /* and stride */ \
+    LINE("add r8, r8, lr") \
+    LINE("add r11, r11, r2") \
+    LINE("adds r0, r0, r4") \
+    LINE("add r1, r1, r10") \
+    LINE("asr r2, " LEFT ", #20") \
+    LINE("cmp r2, " RIGHT ", asr #20") \
+    LINE("bgt 35f") \
+    LINE("sub r4, r2, r12") \
+    LINE("asr r12, " RIGHT ", #20") \
+    LINE("mla r1, r3, r4, r1") \
+    LINE("add r0, r0, r4, lsl #1") \
+    LINE("sub r5, r12, r2") \
+    LINE("31: ldrh r2, [r0]") \
+    LINE("cmp r2, r1, lsr #16") \
+    LINE("bhs 33f") \
+    LINE("lsrs r2, r1, #16") \
+    LINE("strh r2, [r0]") \
+    LINE("strh r6, [r0, r7]") \
+    LINE("33: subs r5, r5, #1") \
+    LINE("bmi 35f") \
+    LINE("34: adds r1, r1, r3") \
+    LINE("ldrh r2, [r0, #2]!") \
+    LINE("cmp r2, r1, lsr #16") \
+    LINE("bhs 36f") \
+    LINE("lsrs r2, r1, #16") \
+    LINE("strh r2, [r0]") \
+    LINE("strh r6, [r0, r7]") \
+    LINE("36: subs r5, r5, #1") \
+    LINE("bpl 34b") \
+    LINE("35: adds r9, r9, #0x10000") \
+    LINE("bmi 30b") \
+    LINE("beq 10b") \
+    LINE("rsb r9, r9, #0") \
+    LINE("lsl r9, r9, #16") \
+    LINE("ldrd r8, lr, [sp, #NEXT_X]") \
+    LINE("b 30b")
+
+__attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
+    (void)run;
+    __asm__ volatile(
+        ENTER
+        COUNTED
+
+        /* r0: the face's record, number + 1 */
+        LINE("11: ldrd r1, r2, [sp, #LIMIT]")
+        LINE("subs r3, r0, #1")
+        LINE("cmp r3, r1")
+        LINE("bhs 89f")
+        LINE("ldrd r4, r7, [sp, #RECORD_BYTES]")
+        LINE("mls r2, r0, r4, r2")
+        LINE("ldrd r3, r4, [r2]")
+        LINE("strd r0, r3, [sp, #LIST]")
+        LINE("ldrd r1, r5, [sp, #VERTICES]")
+        LINE("ubfx r6, r4, #16, #8")
+        LINE("cmp r6, r5")
+        LINE("bne 80f")
+        LINE("lsrs r6, r4, #24")
+        LINE("ldrh r6, [r7, r6, lsl #1]")
+        LINE("cmp r6, #0")
+        LINE("beq 90f")
+        LINE("str r6, [sp, #VALUE]")
+        CORNERS
+        DIFFERENCES(NEAR_DIFFERENCES)
+        CENTRE
+        BENDS_LEFT(RECORD, KEEP)
+        BENDS_RIGHT(RECORD, KEEP)
+
+        AREA
+        DEPTH("r10")
+        FIRST);
+
+    __asm__ volatile(ROWS("", "r8", "r11") ROWS("51:", "r11", "r8"));
+
+    __asm__ volatile(
+        ABOVE
+        LINE("71: add r0, sp, #KEPT + CORNERS")
+        LINE("str r9, [r0, #32]")
+        LINE("movs r1, #0")
+        LINE("bl small_thumb_far")
+        LINE("add r12, sp, #KEPT + CORNERS")
+        LINE("ldm r12, {r0-r7, r9}")
+        LINE("mov r10, r5")
+        LINE("b 14b")
+
+        LINE("80: ldr r5, [sp, #MATERIAL]")
+        LINE("cmp r6, r5")
+        LINE("bne 90f")
+        LINE("ldr r6, [sp, #GIVEN]")
+        LINE("cbz r7, 81f")                 /* no ramp */
+        LINE("lsrs r6, r4, #24")
+        LINE("ldrh r6, [r7, r6, lsl #1]")
+        LINE("cmp r6, #0")
+        LINE("beq 90f")
+        LINE("81: str r6, [sp, #VALUE]")
+        CORNERS
+        DIFFERENCES(TRUE_DIFFERENCES)
+        TESTS
+        LEAVE);
+}
+
+/* clang-format on */
+
+#endif
