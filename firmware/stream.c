@@ -80,26 +80,35 @@ static int next(tuile_t *renderer, const tuile_stream_hooks_t *hooks, uint32_t *
 int tuile_stream_tiles(tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display, const tuile_stream_hooks_t *hooks,
                        tuile_stats_t *stats) {
     const tuile_config_t *config = tuile_config(renderer);
+    const bool flows = hooks->flow && display->lit;
+    bool shown = !flows || !display->in_flight; /* the frame before */
     tuile_tile_t tile = {0};
     const bool whole = in_one_window(config, display, hooks);
     uint32_t index = 0;
     int result, waited, ended;
 
     if (stats) { *stats = (tuile_stats_t){0}; }
-    if ((result = tuile_display_wait(display)) || (result = tuile_stream_check(config, display)) ||
+    if ((shown && (result = tuile_display_wait(display))) || (result = tuile_stream_check(config, display)) ||
         (result = tuile_begin(renderer, scene))) {
+        if (!shown) { (void)tuile_display_wait(display); }
         return result;
     }
     if (hooks->begun) { hooks->begun(hooks->context, scene); }
     while ((result = hooks->wanted ? next(renderer, hooks, &index, &tile) : tuile_next(renderer, &tile)) > 0) {
+        /* The first tile has a buffer of its own, since a renderer takes them in turn from frame to frame. */
+        if (!shown && (result = tuile_display_present(display)) < 0) { break; }
+        shown = true;
         result = hooks->send ? hooks->send(hooks->context, display, &tile) : send_tile(display, &tile, whole);
         /* With one buffer the next tile overwrites this one, so there is nothing to overlap with. With two it overwrites the
          * one before, and that may still be on the wire if this one was not sent, since nothing waited for it. */
         if (result == 0 || (result > 0 && config->buffers < 2)) { result = tuile_display_wait(display); }
         if (result < 0) { break; }
     }
-    waited = tuile_display_wait(display); /* also after an error: the tile buffers must be the renderer's again */
+    const bool leave = flows && result == 0 && display->in_flight;
+    waited = leave ? TUILE_HAL_OK : tuile_display_wait(display); /* also after an error: the buffers must be the renderer's again */
     ended = tuile_end(renderer, stats);
+    if (leave && ended == TUILE_OK) { return TUILE_OK; }
+    if (leave) { waited = tuile_display_wait(display); }
     if (result < 0) { return result; }
     if (waited < 0) { return waited; }
     return ended < 0 ? ended : tuile_display_present(display);
@@ -110,6 +119,14 @@ int tuile_stream_frame(tuile_t *renderer, const tuile_scene_t *scene, tuile_disp
 
     return tuile_stream_tiles(renderer, scene, display, &none, stats);
 }
+
+int tuile_stream_flow(tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display, tuile_stats_t *stats) {
+    static const tuile_stream_hooks_t flow = {.flow = true};
+
+    return tuile_stream_tiles(renderer, scene, display, &flow, stats);
+}
+
+int tuile_stream_settle(tuile_display_t *display) { return tuile_display_present(display); }
 
 const char *tuile_stream_error_text(int error) {
     return error <= TUILE_HAL_ARGUMENT ? tuile_hal_error_text(error) : tuile_error_text(error);

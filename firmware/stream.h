@@ -21,6 +21,16 @@ int tuile_stream_check(const tuile_config_t *config, const tuile_display_t *disp
  * stats may be NULL; all zero when the frame was not begun. */
 int tuile_stream_frame(tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display, tuile_stats_t *stats);
 
+/* One of many frames: as tuile_stream_frame, but the last tile may still be on the wire when the call returns, and goes out while
+ * the next frame is prepared: in a row of such frames the wire rests only where it has nothing to send. The next call of it, or
+ * tuile_stream_settle, waits for that tile, presents its frame, and returns its faults; until then neither the block nor the
+ * display may be used otherwise, while scene and models may change. With one buffer, in a display's first frame and after errors it
+ * is tuile_stream_frame. */
+int tuile_stream_flow(tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display, tuile_stats_t *stats);
+
+/* Behind the last frame of tuile_stream_flow: returns when all is out and presented. 0 or a tuile_hal_error_t. */
+int tuile_stream_settle(tuile_display_t *display);
+
 /* What a frame loop may do otherwise; NULL: as tuile_stream_frame does. */
 typedef struct tuile_stream_hooks {
     void *context;
@@ -31,6 +41,7 @@ typedef struct tuile_stream_hooks {
     /* Sends a tile, or not; its bytes are the hook's to change until they are on the wire. 1: it did; 0: it did not; or a
      * tuile_hal_error_t. */
     int (*send)(void *context, tuile_display_t *display, const tuile_tile_t *tile);
+    bool flow; /* as tuile_stream_flow */
 } tuile_stream_hooks_t;
 
 /* tuile_stream_frame with hooks. */

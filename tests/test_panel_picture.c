@@ -111,6 +111,36 @@ static void a_renderer_that_does_not_fit_the_display_sends_nothing(void **state)
     }
 }
 
+/* With tiles of 30 rows a frame has 11, so that each frame's first tile goes where the last but one of the frame before was. */
+static void frames_that_flow_into_one_another_reach_the_glass_whole(void **state) {
+    static uint64_t block[16384];
+    stage_t stage;
+    (void)state;
+    stage_open_torus(&stage, 240, 320);
+    sim_picture_t seen[2] = {{0}};
+    for (unsigned flow = 0; flow < 2; flow++) {
+        board_t board;
+        tuile_t *renderer;
+        tuile_config_t config = stage_panel_config(&stage);
+        config.tile_height = 30;
+        board_open(&board, NULL);
+        assert_int_equal(board_start(&board, (uint8_t)(0), TUILE_WIRE_RGB565), 0);
+        assert_int_equal(tuile_init(&renderer, &config, block, sizeof block, NULL), 0);
+        for (unsigned frame = 0; frame < 3; frame++) {
+            assert_int_equal((flow ? tuile_stream_flow : tuile_stream_frame)(renderer, &stage.view.scene, &board.display, NULL), 0);
+            if (frame) { assert_int_equal(board.bus.flying != NULL, flow); }
+        }
+        assert_int_equal(tuile_stream_settle(&board.display), 0);
+        assert_string_equal(board.bus.error.text, "");
+        assert_int_equal(sim_bus_picture(&board.bus, 0, &seen[flow], NULL), 0);
+        board_close(&board);
+    }
+    assert_memory_equal(seen[0].rgb, seen[1].rgb, 240 * 320 * 3);
+    sim_picture_free(&seen[0]);
+    sim_picture_free(&seen[1]);
+    stage_close(&stage);
+}
+
 static void one_buffer_reaches_the_glass_whole(void **state) {
     static uint64_t block[4096];
     stage_t stage;
@@ -140,6 +170,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_panel_shows_the_picture_in_all_rotations),
         cmocka_unit_test(a_renderer_that_does_not_fit_the_display_sends_nothing),
+        cmocka_unit_test(frames_that_flow_into_one_another_reach_the_glass_whole),
         cmocka_unit_test(one_buffer_reaches_the_glass_whole),
     };
     return cmocka_run_group_tests_name("panel_picture", tests, NULL, NULL);

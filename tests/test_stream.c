@@ -199,7 +199,9 @@ struct tuile {
     unsigned next, begun, ended;
     int begin_error, next_error, end_error;
     unsigned fail_at; /* tile */
-    const sim_bus_t *bus;
+    sim_bus_t *bus;
+    uint64_t work_ns; /* of a tile */
+    bool left;        /* the last tile may be on the wire when a frame ends */
     uint8_t buffers[2][240 * 32 * 2];
 };
 
@@ -218,6 +220,7 @@ static int fake_next(tuile_t *renderer, tuile_tile_t *tile) {
     *tile = (tuile_tile_t){0};
     if (renderer->next_error && renderer->next == renderer->fail_at) { return renderer->next_error; }
     if (renderer->next == 10) { return 0; }
+    sim_bus_work(renderer->bus, renderer->work_ns);
     memset(to, 0, sizeof renderer->buffers[0]);
     board_encode(to, TUILE_WIRE_RGB565, 240, 0, y, 240, 32);
     *tile = (tuile_tile_t){0, (uint16_t)y, 240, 32, to, sizeof renderer->buffers[0]};
@@ -231,7 +234,7 @@ static int fake_seek(tuile_t *renderer, uint32_t tile_index) {
 }
 
 static int fake_end(tuile_t *renderer, tuile_stats_t *stats) {
-    assert_null(renderer->bus->flying); /* the block is the renderer's again */
+    if (!renderer->left) { assert_null(renderer->bus->flying); } /* the block is the renderer's again */
     renderer->ended++;
     if (stats) { stats->tiles = renderer->next; }
     return renderer->end_error;
@@ -250,6 +253,8 @@ static const char *fake_error_text(int error) { return error ? "renderer" : "no 
 #define tuile_error_text fake_error_text
 #define tuile_stream_frame stream_frame_under_test
 #define tuile_stream_tiles stream_tiles_under_test
+#define tuile_stream_flow stream_flow_under_test
+#define tuile_stream_settle stream_settle_under_test
 #define next stream_next
 #define tuile_stream_error_text stream_error_text_under_test
 #define tuile_stream_format stream_format_under_test
@@ -476,6 +481,123 @@ static void test_stream_both_fail(void **state) {
     board_close(&board);
 }
 
+/* A tile takes 5 ms to draw, its window 11 bytes at 10 MHz and its pixels 15 360 at 62.5 MHz. A frame by itself ends
+ * with those of its last tile; of frames that flow only the last one does. */
+static void test_frames_that_flow_overlap_at_their_ends(void **state) {
+    static tuile_t renderer;
+    static const uint64_t tile_ns = 5000000 + 8800, pixels_ns = 1966080;
+    const tuile_display_config_t config = {.panel = &tuile_ili9341, .pixel_clock_hz = 62500000};
+
+    (void)state;
+    for (uint8_t buffers = 1; buffers <= 2; buffers++) {
+        board_t board;
+        uint64_t before_ns;
+        tuile_display_config_t on = config;
+        open_stream(&board, &renderer, NULL, buffers);
+        on.bus = &board.bus.bus;
+        assert_int_equal(tuile_display_init(&board.display, &on), 0);
+        assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), 0);
+        assert_true(board.display.lit); /* the first frame is shown at once */
+        assert_null(board.bus.flying);
+        renderer.left = buffers == 2;
+        renderer.work_ns = 5000000;
+        before_ns = board.bus.now_ns;
+        for (unsigned frame = 0; frame < 3; frame++) {
+            assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), 0);
+            assert_int_equal(board.bus.flying != NULL, buffers == 2);
+        }
+        assert_int_equal(stream_settle_under_test(&board.display), 0);
+        assert_null(board.bus.flying);
+        assert_int_equal(board.bus.now_ns - before_ns, 30 * tile_ns + (buffers == 2 ? 1 : 30) * pixels_ns);
+        renderer.left = false;
+        before_ns = board.bus.now_ns;
+        for (unsigned frame = 0; frame < 3; frame++) {
+            assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), 0);
+        }
+        assert_int_equal(board.bus.now_ns - before_ns, 30 * tile_ns + (buffers == 2 ? 3 : 30) * pixels_ns);
+        assert_string_equal(board.bus.error.text, "");
+        board_check_picture(&board, 0, TUILE_WIRE_RGB565);
+        board_close(&board);
+    }
+}
+
+/* A frame's first window waits for the panel to have shown its last line, that of a frame that flows as well: every 100 ms, which
+ * is more than a frame's 19.7 and what is left of the one before. */
+static void test_each_frame_that_flows_waits_for_the_tearing_line(void **state) {
+    static tuile_t renderer;
+    tuile_display_config_t config = {.panel = &tuile_ili9341, .pixel_clock_hz = 62500000, .tearing_timeout_ms = 200};
+    board_t board;
+
+    (void)state;
+    open_stream(&board, &renderer, &(sim_bus_config_t){.refresh_hz = 10}, 2);
+    config.bus = &board.bus.bus;
+    assert_int_equal(tuile_display_init(&board.display, &config), 0);
+    renderer.left = true;
+    for (unsigned frame = 0; frame < 4; frame++) {
+        const uint64_t before = board.bus.now_ns / 100000000;
+        assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), 0);
+        assert_int_equal(board.bus.now_ns / 100000000, before + 1);
+    }
+    assert_int_equal(stream_settle_under_test(&board.display), 0);
+    board_close(&board);
+}
+
+/* 21 transfers of the start and 40 of a frame; the last of the next frame is the 101st, which a frame that
+ * flows leaves on the wire. */
+static void test_a_fault_of_the_tile_left_behind_is_told_by_the_next_call(void **state) {
+    static tuile_t renderer;
+
+    (void)state;
+    for (unsigned settle = 0; settle < 2; settle++) {
+        board_t board;
+        open_stream(&board, &renderer, &(sim_bus_config_t){.fail_transfer = 101}, 2);
+        assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+        assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), 0);
+        assert_int_equal(board.bus.transfers, 61);
+        renderer.left = true;
+        assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), 0);
+        assert_int_equal(board.bus.transfers, 101);
+        assert_int_equal(settle ? stream_settle_under_test(&board.display)
+                                : stream_flow_under_test(&renderer, &nothing, &board.display, NULL),
+                         TUILE_HAL_IO);
+        assert_int_equal(renderer.ended, settle ? 2 : 3);
+        assert_int_equal(board.display.error, TUILE_HAL_IO);
+        assert_int_equal(board.bus.transfers, 101); /* nothing more was sent */
+        renderer.begun = 0;
+        assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), TUILE_HAL_IO);
+        assert_int_equal(renderer.begun, 0);
+        board_close(&board);
+    }
+}
+
+static void test_a_renderer_s_error_leaves_nothing_on_the_wire(void **state) {
+    static tuile_t renderer;
+    board_t board;
+
+    (void)state;
+    open_stream(&board, &renderer, NULL, 2);
+    renderer.left = true;
+    assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+    for (unsigned kind = 0; kind < 4; kind++) {
+        for (unsigned i = 0; i < 2; i++) {
+            assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), 0);
+        }
+        assert_non_null(board.bus.flying);
+        renderer.begin_error = kind == 0 ? TUILE_ERROR_CAMERA : 0;
+        renderer.next_error = kind == 1 || kind == 2 ? TUILE_ERROR_CAMERA : 0;
+        renderer.fail_at = kind == 1 ? 0 : 10;
+        renderer.end_error = kind == 3 ? TUILE_ERROR_CAMERA : 0;
+        assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), TUILE_ERROR_CAMERA);
+        assert_null(board.bus.flying);
+        assert_int_equal(board.display.error, 0);
+        renderer.begin_error = renderer.next_error = renderer.end_error = 0;
+    }
+    assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, NULL), 0);
+    board_check_clean(&board);
+    board_check_picture(&board, 0, TUILE_WIRE_RGB565);
+    board_close(&board);
+}
+
 static void test_error_texts(void **state) {
     (void)state;
     for (int error = TUILE_HAL_GONE; error <= TUILE_HAL_ARGUMENT; error++) {
@@ -507,6 +629,10 @@ int main(void) {
         cmocka_unit_test(test_stream_renderer_errors),
         cmocka_unit_test(test_stream_display_faults),
         cmocka_unit_test(test_stream_both_fail),
+        cmocka_unit_test(test_frames_that_flow_overlap_at_their_ends),
+        cmocka_unit_test(test_each_frame_that_flows_waits_for_the_tearing_line),
+        cmocka_unit_test(test_a_fault_of_the_tile_left_behind_is_told_by_the_next_call),
+        cmocka_unit_test(test_a_renderer_s_error_leaves_nothing_on_the_wire),
         cmocka_unit_test(test_error_texts),
     };
     return cmocka_run_group_tests_name("stream", tests, NULL, NULL);
