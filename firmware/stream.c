@@ -38,12 +38,9 @@ int tuile_stream_check(const tuile_config_t *config, const tuile_display_t *disp
                : TUILE_ERROR_ARGUMENT;
 }
 
-/* Does one window do for all tiles? Their rows run on in it when they are as wide as the display and of whole bytes, and it is
- * filled when none is left out. A device of its own may do more with a window than to set it. */
-static bool in_one_window(const tuile_config_t *config, const tuile_display_t *display, const tuile_stream_hooks_t *hooks) {
-    return !hooks->wanted && !hooks->send && display->context == &display->panel && config->format <= TUILE_RGB565_LE &&
-           config->tile_width == config->width && config->row_end == config->height && config->tile_step == 1 &&
-           !(config->tile_first | config->row_first);
+bool tuile_stream_one_window(const tuile_config_t *config, const tuile_display_t *display) {
+    return display->context == &display->panel && config->format <= TUILE_RGB565_LE && config->tile_width == config->width &&
+           config->row_end == config->height && config->tile_step == 1 && !(config->tile_first | config->row_first);
 }
 
 /* whole: one window for all tiles, so that its commands need not go out between two of them. */
@@ -83,7 +80,7 @@ int tuile_stream_tiles(tuile_t *renderer, const tuile_scene_t *scene, tuile_disp
     const bool flows = hooks->flow && display->lit;
     bool shown = !flows || !display->in_flight; /* the frame before */
     tuile_tile_t tile = {0};
-    const bool whole = in_one_window(config, display, hooks);
+    const bool whole = !hooks->wanted && !hooks->send && tuile_stream_one_window(config, display);
     uint32_t index = 0;
     int result, waited, ended;
 

@@ -11,6 +11,10 @@ uint8_t tuile_stream_format(const tuile_display_t *display);
 /* Do a renderer's window, format and tiles go with the display? 0 or TUILE_ERROR_ARGUMENT, as tuile_stream_frame has it. */
 int tuile_stream_check(const tuile_config_t *config, const tuile_display_t *display);
 
+/* Does one window do for all tiles? Their rows run on in it when they are as wide as the display and of whole bytes, and it is
+ * filled when none is left out. A device of its own may do more with a window than to set it. */
+bool tuile_stream_one_window(const tuile_config_t *config, const tuile_display_t *display);
+
 /* Draws one frame and sends it. With two tile buffers (tuile_config_t.buffers) a tile is on the wire while the next is drawn.
  * The renderer's window must be as large as the display, its format the display's (tuile_stream_format) and its tiles aligned as
  * the display's windows are, else TUILE_ERROR_ARGUMENT before anything is drawn.

@@ -1,9 +1,10 @@
 #include "update.h"
 
 #define WINDOW_BYTES 16u /* MIPI DCS: 11 bytes of commands, and what the pauses between them come to */
-/* Frames without sums after one that had changed nearly everywhere. Two frames with them follow, one to know and one to compare:
- * 2 in 22 that pay a tenth of the drawing at most. */
+/* Frames without sums after one that had changed nearly everywhere. Two frames follow, one to know and one to compare, with sums of
+ * one row of tiles in PROBED, which tell whether the rest is to go on. */
 #define REST_FRAMES 20u
+#define PROBED 4u
 
 /* How the bytes of a tile lie: lines of so many bytes. Of turned formats lines run along y, so that cells are whole lines. */
 typedef struct layout {
@@ -103,6 +104,18 @@ static int send_lines(tuile_update_t *update, const layout_t *layout, const tuil
     return result;
 }
 
+/* A tile of a frame that goes into one window. */
+static int send_on(tuile_update_t *update, const tuile_tile_t *tile) {
+    int result = TUILE_HAL_OK;
+
+    update->bytes_sent += tile->size_bytes;
+    if (tile->y == 0) {
+        update->windows++;
+        result = tuile_display_window(update->display, 0, 0, update->config->width, update->config->height);
+    }
+    return result ? result : tuile_display_write(update->display, tile->bytes, (size_t)tile->size_bytes);
+}
+
 /* The last of a tile: moved together first, so that it goes out by itself while the next tile is drawn. */
 static int send_last(tuile_update_t *update, const layout_t *layout, const tuile_tile_t *tile, const run_t *run) {
     const uint32_t first = place(layout, tile, run->from), count = place(layout, tile, run->end) - first;
@@ -141,13 +154,14 @@ static uint32_t *sums_of(const tuile_update_t *update, const tuile_tile_t *tile)
 
 /* Whether a cell is to be sent; its sum is kept. */
 static bool changed(tuile_update_t *update, const layout_t *layout, const tuile_tile_t *tile, const run_t *cell, uint32_t *sum) {
+    const bool summing = update->summing && (!update->probing || (uint32_t)tile->y / update->config->tile_height % PROBED == 0);
     const uint32_t before = *sum;
 
     update->cells++;
-    *sum = update->summing ? sum_of(layout, tile, cell->from, cell->end) : 0;
-    update->cells_compared += update->summing && before != 0;
-    update->cells_changed += update->summing && before != 0 && *sum != before;
-    return update->whole || !update->summing || *sum != before;
+    *sum = summing ? sum_of(layout, tile, cell->from, cell->end) : 0;
+    update->cells_compared += summing && before != 0;
+    update->cells_changed += summing && before != 0 && *sum != before;
+    return update->whole || !summing || *sum != before;
 }
 
 static int send(void *context, tuile_display_t *display, const tuile_tile_t *tile) {
@@ -171,7 +185,11 @@ static int send(void *context, tuile_display_t *display, const tuile_tile_t *til
         }
         run.end = cell.end;
     }
-    if (result == TUILE_HAL_OK && run.end > 0) { result = send_last(update, &layout, tile, &run); }
+    if (update->one_window) {
+        result = send_on(update, tile);
+    } else if (result == TUILE_HAL_OK && run.end > 0) {
+        result = send_last(update, &layout, tile, &run);
+    }
     return result ? result : run.end > 0;
 }
 
@@ -184,22 +202,37 @@ static bool in_overlay(const tuile_update_t *update, uint32_t x, uint32_t y, uin
            y < (uint32_t)update->overlay_y + update->overlay_height && update->overlay_y < y + height;
 }
 
+static bool touched(const tuile_update_t *update, uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
+    return !update->changes || update->whole || tuile_changes_touch(update->changes, x, y, width, height) ||
+           in_overlay(update, x, y, width, height);
+}
+
 static bool wanted(void *context, uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
     tuile_update_t *update = context;
 
-    if (!update->changes || update->whole || tuile_changes_touch(update->changes, x, y, width, height) ||
-        in_overlay(update, x, y, width, height)) {
-        return true;
-    }
+    if (touched(update, x, y, width, height)) { return true; }
     update->tiles_skipped++;
     update->bytes_whole += width * height * tuile_wire_bits(update->display->wire) / 8u;
     return false;
 }
 
+/* Is every strip of the frame sent, and all of it? */
+static bool goes_whole(const tuile_update_t *update) {
+    const tuile_config_t *c = update->config;
+    bool all = update->whole || !update->summing;
+
+    for (uint32_t y = 0; all && y < c->height; y += c->tile_height) {
+        const uint32_t below = c->height - y;
+        all = touched(update, 0, y, c->width, below < c->tile_height ? below : c->tile_height);
+    }
+    return all;
+}
+
 static void begun(void *context, const tuile_scene_t *scene) {
-    const tuile_update_t *update = context;
+    tuile_update_t *update = context;
 
     if (update->changes) { tuile_changes_next(update->changes, scene); }
+    update->one_window = tuile_stream_one_window(update->config, update->display) && goes_whole(update);
 }
 
 /* ---- frames ---------------------------------------------------------------------------------------------------- */
@@ -214,7 +247,9 @@ static void plan(tuile_update_t *update, const tuile_display_t *display) {
     update->cells_compared = update->cells_changed = 0;
     update->bytes_whole = update->bytes_sent = 0;
     update->summing = update->resting == 0;
-    if (!update->summing) { update->resting--; }
+    if (!update->summing && --update->resting == 0) { update->probes = 2; }
+    update->probing = update->summing && update->probes != 0;
+    if (update->probing) { update->probes--; }
     for (uint32_t i = 0; i < update->sum_count && !update->valid; i++) {
         update->sums[i] = 0;
     }
@@ -224,8 +259,8 @@ static void plan(tuile_update_t *update, const tuile_display_t *display) {
 }
 
 static bool nearly_all(const tuile_update_t *update) {
-    return update->cells_compared == update->cells && update->tiles_skipped == 0 &&
-           update->cells_changed >= update->cells - update->cells / 8u;
+    return update->cells_compared != 0 && (update->probing || update->cells_compared == update->cells) &&
+           update->tiles_skipped == 0 && update->cells_changed >= update->cells_compared - update->cells_compared / 8u;
 }
 
 int tuile_update_frame(tuile_update_t *update, tuile_t *renderer, const tuile_scene_t *scene, tuile_display_t *display,

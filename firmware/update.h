@@ -33,12 +33,15 @@ typedef struct tuile_update {
     uint32_t cells, cells_sent, tiles_skipped, windows;
     uint32_t bytes_whole, bytes_sent; /* of pixels: of all tiles, of those sent */
     bool whole;                       /* the frame was sent whole */
+    bool one_window;                  /* every tile of it was, into one window */
 
     const tuile_config_t *config; /* from here on: its own */
     tuile_display_t *display;
     uint32_t frames; /* since the last whole one */
     uint32_t cells_compared, cells_changed;
     uint16_t resting; /* frames for which no sums are made */
+    uint8_t probes;   /* frames behind a rest that sum a part */
+    bool probing;     /* this is one of them */
     bool valid;       /* what is on the glass is the frame before; sums of 0 tell nothing about it */
     bool summing;     /* this frame makes sums */
 } tuile_update_t;

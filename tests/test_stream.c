@@ -255,6 +255,7 @@ static const char *fake_error_text(int error) { return error ? "renderer" : "no 
 #define tuile_stream_tiles stream_tiles_under_test
 #define tuile_stream_flow stream_flow_under_test
 #define tuile_stream_settle stream_settle_under_test
+#define tuile_stream_one_window stream_one_window_under_test
 #define next stream_next
 #define tuile_stream_error_text stream_error_text_under_test
 #define tuile_stream_format stream_format_under_test

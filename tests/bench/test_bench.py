@@ -18,7 +18,7 @@ import rows
 from rows import BenchError
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-FOLDER, OPTIONS = "", []
+FOLDER, OPTIONS = None, []  # without one nothing is written: its files have the names of the tree
 LINE = "room cortex-m3 zbuffer flat 320x24 4M"
 
 

@@ -1,9 +1,10 @@
 /* What the DMA saves: the time to draw a frame, the time of its tiles on the wire, and the time of both at once. For each of some
- * frames it tells three lines, each after what it is about:
+ * frames it tells three lines, each after what it is about, and then one of all of them in a row:
  *
  *     render bunny 3    the frame is drawn, and nothing sent
  *     wire bunny 3      as many bytes are sent in the same windows, and nothing drawn
  *     both bunny 3      the frame is drawn and shown, as by any program
+ *     flow bunny 8      the same for all, the last tile of each going out while the next frame begins
  *
  * An emulator appends the times (tests/emulators/rp2040.mjs); on a real board a logic analyser finds them at the chip select. */
 #include "../../board/board.h"
@@ -89,5 +90,13 @@ int main(void) {
         check(error);
         tell("both", script, frame);
     }
+    frame_begins();
+    for (uint32_t frame = 0; frame < FRAMES; frame++) {
+        check(scene_frame(&player.stage, frame));
+        check(tuile_stream_flow(player.renderer, &player.stage.scene, &display, NULL));
+    }
+    check(tuile_stream_settle(&display));
+    frame_ends();
+    tell("flow", script, FRAMES);
     board_park(BOARD_DONE);
 }
