@@ -24,100 +24,99 @@ _Static_assert(VERTEX_ANY_OUTSIDE == 1 && VERTEX_ANY_BEYOND == 2 && LIGHT_MIN ==
                    VERTEX_OUTSIDE == INT16_MIN && GUARD_SPAN - 2 * GUARD_MARGIN == 0x7fe0,
                "numbers in the assembly");
 
-#define TEXT_OF(number) #number
-#define TEXT(number) TEXT_OF(number)
+/* clang-format off */
 
 /* r0 run, r1 positions, r2 normals, or the end where there are none, r3 out.
  * Down to depths: r4 x, r5 y, r6 z, each 16 places to the left; r7 r. */
-#define PROJECT                                                                               \
-    "1: ldr r5, [r1], #4\n"                                                                   \
-    "ldrh r6, [r1], #2\n"                                                                     \
-    "ldmia r0!, {r7, r8, r9, r10, r11, r12, lr}\n" /* w, zeros, ones */                       \
-    "lsls r4, r5, #16\n"                                                                      \
-    "bfc r5, #0, #16\n"                                                                       \
-    "lsls r6, r6, #16\n"                                                                      \
-    "smlal r10, r11, r7, r4\n"                                                                \
-    "smlal r10, r11, r8, r5\n"                                                                \
-    "smlal r10, r11, r9, r6\n"                                                                \
-    "lsl r11, r11, r12\n"                                                                     \
-    "orr r11, r11, #0x80000000\n"                                                             \
-    "lsr r7, r11, #16\n" /* fixed_reciprocal */                                               \
-    "udiv r7, lr, r7\n"                                                                       \
-    "lsls r7, r7, #14\n"                                                                      \
-    "umull r8, r9, r11, r7\n"                                                                 \
-    "rsb r9, r9, #0x40000000\n"                                                               \
-    "lsr r8, r7, #16\n"                                                                       \
-    "mul r8, r8, r9\n"                                                                        \
-    "add r7, r7, r8, asr #14\n"                                                               \
-    "ldmia r0!, {r8, r9, r10, r11, r12}\n" /* x */                                            \
-    "smlal r11, r12, r8, r4\n"                                                                \
-    "smlal r11, r12, r9, r5\n"                                                                \
-    "smlal r11, r12, r10, r6\n"                                                               \
-    "smull r8, lr, r12, r7\n"                                                                 \
-    "ldmia r0!, {r8, r9, r10, r11, r12}\n" /* y */                                            \
-    "smlal r11, r12, r8, r4\n"                                                                \
-    "smlal r11, r12, r9, r5\n"                                                                \
-    "smlal r11, r12, r10, r6\n"                                                               \
-    "smull r8, r5, r12, r7\n"                                                                 \
+#define PROJECT \
+    "1: ldr r5, [r1], #4\n" \
+    "ldrh r6, [r1], #2\n" \
+    "ldmia r0!, {r7, r8, r9, r10, r11, r12, lr}\n" /* w, zeros, ones */ \
+    "lsls r4, r5, #16\n" \
+    "bfc r5, #0, #16\n" \
+    "lsls r6, r6, #16\n" \
+    "smlal r10, r11, r7, r4\n" \
+    "smlal r10, r11, r8, r5\n" \
+    "smlal r10, r11, r9, r6\n" \
+    "lsl r11, r11, r12\n" \
+    "orr r11, r11, #0x80000000\n" \
+    "lsr r7, r11, #16\n" /* fixed_reciprocal */ \
+    "udiv r7, lr, r7\n" \
+    "lsls r7, r7, #14\n" \
+    "umull r8, r9, r11, r7\n" \
+    "rsb r9, r9, #0x40000000\n" \
+    "lsr r8, r7, #16\n" \
+    "mul r8, r8, r9\n" \
+    "add r7, r7, r8, asr #14\n" \
+    "ldmia r0!, {r8, r9, r10, r11, r12}\n" /* x */ \
+    "smlal r11, r12, r8, r4\n" \
+    "smlal r11, r12, r9, r5\n" \
+    "smlal r11, r12, r10, r6\n" \
+    "smull r8, lr, r12, r7\n" \
+    "ldmia r0!, {r8, r9, r10, r11, r12}\n" /* y */ \
+    "smlal r11, r12, r8, r4\n" \
+    "smlal r11, r12, r9, r5\n" \
+    "smlal r11, r12, r10, r6\n" \
+    "smull r8, r5, r12, r7\n" \
     "ldmia r0!, {r4, r6, r8, r9, r10, r11, r12}\n" /* half ... region_height; r0: at light */ \
-    "add lr, lr, r4\n"                                                                        \
-    "adds r5, r5, r4\n"                                                                       \
-    "asr lr, lr, r6\n"                                                                        \
-    "asrs r5, r5, r6\n"                                                                       \
-    "lsr r7, r7, r8\n"                                                                        \
-    "sub r9, lr, r9\n"                                                                        \
-    "sub r11, r5, r11\n"                                                                      \
-    "cmp r9, r10\n"                                                                           \
-    "it lo\n"                                                                                 \
-    "cmplo r11, r12\n"                                                                        \
-    "bhs 3f\n"                                                                                \
+    "add lr, lr, r4\n" \
+    "adds r5, r5, r4\n" \
+    "asr lr, lr, r6\n" \
+    "asrs r5, r5, r6\n" \
+    "lsr r7, r7, r8\n" \
+    "sub r9, lr, r9\n" \
+    "sub r11, r5, r11\n" \
+    "cmp r9, r10\n" \
+    "it lo\n" \
+    "cmplo r11, r12\n" \
+    "bhs 3f\n" \
     "2: bfi lr, r5, #16, #16\n"
 
 /* A vertex beyond the region, where r4, r6 and r8 ... r12 are free. */
-#define BEYOND                                                                                                             \
-    "3: ldr r12, [r0, #" TEXT(ANY_BEHIND_LIGHT) "]\n"                                                                      \
-                                                "ldrd r8, r9, [r0, #" TEXT(GUARD_BEHIND_LIGHT) "]\n"                       \
-                                                                                               "movw r6, #0x7fe0\n"        \
-                                                                                               "orr r12, r12, #2\n"        \
-                                                                                               "sub r8, lr, r8\n"          \
-                                                                                               "sub r9, r5, r9\n"          \
-                                                                                               "cmp r8, r6\n"              \
-                                                                                               "it lo\n"                   \
-                                                                                               "cmplo r9, r6\n"            \
-                                                                                               "itttt hs\n"                \
-                                                                                               "orrhs r12, r12, #1\n"      \
-                                                                                               "movhs lr, #0x8000\n"       \
-                                                                                               "movhs r5, #0\n"            \
-                                                                                               "movhs r7, #0\n"            \
-                                                                                               "str r12, [r0, #" TEXT(     \
-                                                                                                   ANY_BEHIND_LIGHT) "]\n" \
-                                                                                                                     "b 2b\n"
+#define BEYOND \
+    "3: ldr r12, [r0, %[any]]\n" \
+    "ldrd r8, r9, [r0, %[guard]]\n" \
+    "movw r6, #0x7fe0\n" \
+    "orr r12, r12, #2\n" \
+    "sub r8, lr, r8\n" \
+    "sub r9, r5, r9\n" \
+    "cmp r8, r6\n" \
+    "it lo\n" \
+    "cmplo r9, r6\n" \
+    "itttt hs\n" \
+    "orrhs r12, r12, #1\n" \
+    "movhs lr, #0x8000\n" \
+    "movhs r5, #0\n" \
+    "movhs r7, #0\n" \
+    "str r12, [r0, %[any]]\n" \
+    "b 2b\n"
 
 static TUILE_NOINLINE void run_lit(transform_run_t *run, const int16_t *positions, const int8_t *normals, vertex_t *out) {
     register transform_run_t *r0 __asm__("r0") = run;
     register const int16_t *r1 __asm__("r1") = positions;
     register const int8_t *r2 __asm__("r2") = normals;
     register vertex_t *r3 __asm__("r3") = out;
-    __asm__ volatile(PROJECT "ldrsb r9, [r2], #1\n"
-                             "ldrsb r10, [r2], #1\n"
-                             "ldrsb r11, [r2], #1\n"
-                             "ldmia r0, {r4, r5, r6, r8, r12}\n"
-                             "mul r4, r4, r9\n"
-                             "mla r4, r5, r10, r4\n"
-                             "mla r4, r6, r11, r4\n"
-                             "usat r4, #10, r4, asr #13\n"
-                             "add r4, r4, r8\n"
-                             "usat r4, #8, r4\n"
-                             "subs r4, #2\n"
-                             "subs r0, #" TEXT(AT_LIGHT) "\n"
-                                                         "add r4, r4, r7, lsl #8\n"
-                                                         "strd lr, r4, [r3], #8\n"
-                                                         "cmp r3, r12\n"
-                                                         "bne 1b\n"
-                                                         "b 4f\n" BEYOND "4:\n"
-                     : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
-                     :
-                     : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
+    __asm__ volatile(PROJECT
+        "ldrsb r9, [r2], #1\n"
+        "ldrsb r10, [r2], #1\n"
+        "ldrsb r11, [r2], #1\n"
+        "ldmia r0, {r4, r5, r6, r8, r12}\n"
+        "mul r4, r4, r9\n"
+        "mla r4, r5, r10, r4\n"
+        "mla r4, r6, r11, r4\n"
+        "usat r4, #10, r4, asr #13\n"
+        "add r4, r4, r8\n"
+        "usat r4, #8, r4\n"
+        "subs r4, #2\n"
+        "subs r0, %[light]\n"
+        "add r4, r4, r7, lsl #8\n"
+        "strd lr, r4, [r3], #8\n"
+        "cmp r3, r12\n"
+        "bne 1b\n"
+        "b 4f\n" BEYOND "4:\n"
+        : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
+        : [light] "n"(AT_LIGHT), [guard] "n"(GUARD_BEHIND_LIGHT), [any] "n"(ANY_BEHIND_LIGHT)
+        : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
 }
 
 static TUILE_NOINLINE void run_unlit(transform_run_t *run, const int16_t *positions, vertex_t *out) {
@@ -125,17 +124,20 @@ static TUILE_NOINLINE void run_unlit(transform_run_t *run, const int16_t *positi
     register const int16_t *r1 __asm__("r1") = positions;
     register const vertex_t *r2 __asm__("r2") = run->end;
     register vertex_t *r3 __asm__("r3") = out;
-    __asm__ volatile(PROJECT "lsls r7, r7, #8\n"
-                             "subs r0, #" TEXT(AT_LIGHT) "\n"
-                                                         "adds r7, #2\n"
-                                                         "strd lr, r7, [r3], #8\n"
-                                                         "cmp r3, r2\n"
-                                                         "bne 1b\n"
-                                                         "b 4f\n" BEYOND "4:\n"
-                     : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
-                     :
-                     : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
+    __asm__ volatile(PROJECT
+        "lsls r7, r7, #8\n"
+        "subs r0, %[light]\n"
+        "adds r7, #2\n"
+        "strd lr, r7, [r3], #8\n"
+        "cmp r3, r2\n"
+        "bne 1b\n"
+        "b 4f\n" BEYOND "4:\n"
+        : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r3)
+        : [light] "n"(AT_LIGHT), [guard] "n"(GUARD_BEHIND_LIGHT), [any] "n"(ANY_BEHIND_LIGHT)
+        : "r4", "r5", "r6", "r7", "r8", "r9", "r10", "r11", "r12", "lr", "cc", "memory");
 }
+
+/* clang-format on */
 
 static transform_run_row_t run_row(const transform_row_t *row) {
     const uint64_t t = (uint64_t)row->t << 16;
