@@ -306,7 +306,7 @@ static figures_t figures_of(const char *arguments) {
 static void a_report_says_what_binds_and_by_how_much(void **state) {
     (void)state;
     for (unsigned i = 0; i < 2; i++) {
-        char *text = report_of(i ? "@/torus.obj --panel st7789-135x240 --tile 135x1 --mcu rp2040 --clock 62.5M"
+        char *text = report_of(i ? "@/torus.obj --panel st7789-135x240 --tile 135x3 --mcu rp2040 --clock 62.5M"
                                  : "@/cube.obj --panel ili9341 --mcu stm32f4");
         const double render = number_after(text, "\"render_ns\": "), wire = number_after(text, "\"wire_ns\": ");
         const double frame = number_after(text, "\"frame_ns\": "), instructions = number_after(text, "\"instructions\": ");
@@ -320,7 +320,7 @@ static void a_report_says_what_binds_and_by_how_much(void **state) {
         assert_non_null(strstr(text, "\"not_counted\": \"\""));
         free(text);
     }
-    char *text = cli_good("render @/torus.obj --panel st7789-135x240 --tile 135x1 --mcu rp2040 --clock 62.5M --overlay-text 8,8,x");
+    char *text = cli_good("render @/torus.obj --panel st7789-135x240 --tile 135x3 --mcu rp2040 --clock 62.5M --overlay-text 8,8,x");
     assert_non_null(strstr(text, "rp2040: "));
     assert_non_null(strstr(text, " ms), render-bound: drawing takes "));
     assert_non_null(strstr(text, "; not counted: overlay\n"));
