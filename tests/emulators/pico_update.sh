@@ -78,7 +78,7 @@ mutant() {
 
 mutant last_line_not_summed 's/; lines > 0; lines--/; lines > 1; lines--/'
 mutant end_of_line_not_summed 's/while (at < end)/while (false)/; s/end - at >= 4;/end - at >= 4 \&\& false;/; s/end - at >= 16;/end - at >= 32;/'
-mutant sum_not_kept 's/\*sum = update->summing ? \(.*\) : 0;/const uint32_t now = \1; if (before == 0) { *sum = now; }/'
+mutant sum_not_kept 's/\*sum = summing ? \(.*\) : 0;/const uint32_t now = \1; if (before == 0) { *sum = now; }/'
 mutant window_misplaced 's/tile->x + run->from, tile->y/tile->x, tile->y/'
 mutant window_of_the_whole_tile 's/run->end - run->from, tile->height)/tile->width - run->from, tile->height)/'
 mutant tile_skipped_though_it_changed 's/tuile_changes_touch(update->changes, x, y, width, height)/(x == 80 \&\& y > 64)/'
