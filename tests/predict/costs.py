@@ -1,7 +1,7 @@
 """Instructions of the events that frames consist of (sim/predict.h), fitted to counted ones.
 
     costs.py fit    OPTIONS   counts the frames of SCENES and TEXTURED by QEMU on each core, and writes sim/predict_costs.c
-    costs.py check  OPTIONS   counts those of OTHERS, of which the fit knows nothing; fails where the table is more than LIMIT off
+    costs.py check  OPTIONS   counts those of OTHERS, of which the fit knows nothing; fails where the table is more than LIMIT off (LIMIT_TEXTURED)
     costs.py cycles OPTIONS   cycles of an instruction by the cores' reference manuals (cycles.py), for sim/mcu.c
 """
 import argparse
@@ -27,7 +27,7 @@ EVENTS = ("frame", "cluster", "vertex", "face tested", "polygon tested", "face c
 SUMMED = {"cortex-m0plus": 21 / 16, "cortex-m4": 16 / 16, "rv32imac": 27 / 16}
 MEMORY = 3 << 20
 FRAMES = 8
-LIMIT = 0.15
+LIMIT, LIMIT_TEXTURED = 0.15, 0.20
 TABLE = "sim/predict_costs.c"
 
 # Which events a phase of `make bench` consists of. Helpers, which all phases call, are fitted to all.
@@ -219,7 +219,7 @@ def tell(fits, found):
         all_errors = errors(fits[key], some)
         off, name = max(all_errors, key=lambda e: abs(e[0]))
         mean = statistics.fmean(abs(e[0]) for e in all_errors)
-        within = within and abs(off) <= LIMIT
+        within = within and abs(off) <= (LIMIT_TEXTURED if key[1].startswith("textured") else LIMIT)
         print(f"{key[0]:<14} {key[1]:<17} {len(some):>3} scenes: {100 * mean:4.1f} % off in the mean, at worst {100 * off:+.1f} % ({name})")
     return within
 
@@ -251,7 +251,7 @@ def main():
         if arguments.command == "check":
             if tell(read(), counted(arguments, OTHERS, OTHERS_TEXTURED)):
                 return 0
-            raise rows.BenchError(f"predicted instructions are more than {100 * LIMIT:.0f} % off; make predict-costs fits them anew")
+            raise rows.BenchError(f"predicted instructions are more than {100 * LIMIT:.0f} % off, or {100 * LIMIT_TEXTURED:.0f} with textures; make predict-costs fits them anew")
         found = counted(arguments, SCENES, TEXTURED)
         fits = {key: fit(some) for key, some in found.items()}
         write(fits)
