@@ -15,6 +15,13 @@
 
 typedef int_fast32_t small_int_t;
 
+/* Where a loop in assembly has come to in a list of records. */
+typedef struct small_place {
+    uint32_t list;  /* number + 1 of the next face's record */
+    uint16_t *end;  /* where the number of the next face that reaches below the tile is put */
+    uint32_t count; /* faces that were drawn */
+} small_place_t;
+
 /* How a triangle is drawn: a constant wherever these functions are called. */
 typedef enum small_kind {
     SMALL_FLAT,

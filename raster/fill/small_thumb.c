@@ -129,34 +129,7 @@ __attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
         BENDS_RIGHT(RECORD, KEEP)
 
         AREA
-        /* light: r3, r5 differences; r10 dx; lr at the centre, modulo 2^32 */
-        LINE("subs r3, r3, r1")
-        LINE("sub r3, r3, r11, lsl #8")
-        LINE("subs r5, r5, r1")
-        LINE("sub r5, r5, r12, lsl #8")
-        LINE("mul r10, r5, r2")
-        LINE("mls r10, r3, r4, r10")
-        LINE("mul r3, r3, r7")
-        LINE("mls r3, r5, r6, r3")
-        LINE("smull r10, lr, r10, r8")
-        LINE("smull r3, r5, r3, r8")
-        LINE("lsr r10, r10, #3")
-        LINE("orr r10, r10, lr, lsl #29")
-        LINE("asr lr, lr, #3")
-        LINE("lsrs r3, r3, #3")
-        LINE("orr r3, r3, r5, lsl #29")
-        LINE("asrs r5, r5, #3")
-        LINE("mul lr, lr, r0")
-        LINE("mla lr, r5, r9, lr")
-        LINE("mov r5, #0x8000000")          /* half, times 16 */
-        LINE("umlal r5, lr, r10, r0")
-        LINE("umlal r5, lr, r3, r9")
-        LINE("str r3, [sp, #KEPT + LIGHT_DY]")
-        LINE("lsl lr, lr, #28")
-        LINE("add lr, lr, r5, lsr #4")
-        LINE("add lr, lr, r1, lsl #24")
-
-        /* depth: r3 dx; r1 at the centre */
+        LIGHT("0x8000000")
         DEPTH("r5")
         LINE("str r5, [sp, #KEPT + DEPTH_DY]")
         FIRST);

@@ -21,13 +21,11 @@ typedef struct small_run {
     int32_t material;      /* of the ramp */
     int32_t left, width;   /* small_tile_t */
     uint32_t given;
-    uint32_t list;  /* number + 1 of the next face's record */
-    uint16_t *end;  /* where the number of the next face that reaches below the tile is put */
-    uint32_t count; /* faces that were drawn */
+    small_place_t place;
 } small_run_t;
 
-/* Draws faces from run->list on, with light at the corners or flat, until it meets one that it leaves to the caller: behind the
- * limit, no triangle, of another material, whose colour in the ramp is 0, not short, or not inside the tile's columns. */
+/* Draws faces from run->place.list on, with light at the corners or flat, until it meets one that it leaves to the caller: behind
+ * the limit, no triangle, of another material, whose colour in the ramp is 0, not short, or not inside the tile's columns. */
 void small_thumb_gouraud(small_run_t *run);
 void small_thumb_flat(small_run_t *run);
 

@@ -1,31 +1,11 @@
-/* Parts of the loops in assembly that both kinds share: see fill/small_thumb.c. */
+/* Parts of the loops in assembly that flat triangles and those with light share: see fill/small_thumb.c. */
 #ifndef TUILE_FILL_SMALL_THUMB_PARTS_H
 #define TUILE_FILL_SMALL_THUMB_PARTS_H
 
 #include "small_thumb.h"
-
-#include <stddef.h>
-
-/* A triangle whose depths are far apart, then its gradients: in the order of registers r0 ... r7, r9, r10, lr, and what rows keep
- * in memory. */
-typedef struct small_far {
-    uint32_t to_x;
-    uint32_t depth; /* in: depth_light of the first corner; out: at the first centre */
-    int32_t y1;
-    uint32_t depth_dx; /* in: depth_light of the second */
-    int32_t y2;
-    uint32_t depth_dy; /* in: of the third */
-    int32_t x1, x2;
-    uint32_t to_y;
-    uint32_t light_dx, light, light_dy;
-} small_far_t;
-
-/* Makes them. gouraud: light's too. */
-void small_thumb_far(small_far_t *face, uint32_t gouraud);
+#include "thumb.h"
 
 /* clang-format off */
-
-#define LINE(text) text "\n"
 
 /* At the stack pointer, bytes; from LIMIT to COLOUR, and from MATERIAL to GIVEN, as small_run_t has it. The side of the bend is the
  * one that changes there. */
@@ -55,12 +35,10 @@ void small_thumb_far(small_far_t *face, uint32_t gouraud);
     LINE(".equ FRAME, 172") \
     LINE(".equ KEPT, 24")        /* below that while gradients are made: the first row that is not empty */ \
     LINE(".equ RUN_LIST, 60")
-_Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, material) == 44 && offsetof(small_run_t, list) == 60 &&
-                   sizeof(small_run_t) == 72 && sizeof(small_far_t) == 48 && offsetof(small_far_t, light_dy) == 44,
+_Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, material) == 44 && offsetof(small_run_t, place) == 60 &&
+                   sizeof(small_run_t) == 72,
                "offsets in the assembly");
-_Static_assert(sizeof(record_t) == 8 && offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && offsetof(record_t, d2) == 5 &&
-                   offsetof(record_t, material) == 6 && sizeof(vertex_t) == 8 && TRIANGLE_SMALL_DEPTH == 1 << 17,
-               "numbers in the assembly");
+_Static_assert(sizeof(record_t) == 8, "numbers in the assembly");
 
 /* r4: second word of the record r2, r3: its first word, r1: vertices. To r0 depth and light ... of three corners: r0 x|y, r1, r2,
  * r3, r4, r5. */
@@ -75,19 +53,6 @@ _Static_assert(sizeof(record_t) == 8 && offsetof(record_t, v0) == 2 && offsetof(
     LINE("ldrd r0, r1, [r8]") \
     LINE("ldrd r2, r3, [r9]") \
     LINE("ldrd r4, r5, [r10]")
-
-/* r0 x0, r8 y0, r6 x1, r2 y1, r7 x2, r4 y2, from the first corner for the others. */
-#define DIFFERENCES(OF_X) \
-    LINE("asrs r8, r0, #16") \
-    OF_X \
-    LINE("rsb r2, r8, r2, asr #16") \
-    LINE("rsb r4, r8, r4, asr #16") \
-    LINE("sxth r0, r0")
-
-/* Those of x: below 2^15, and any. */
-#define NEAR_DIFFERENCES LINE("subs r6, r2, r0") LINE("sxth r6, r6") LINE("subs r7, r4, r0") LINE("sxth r7, r7")
-#define TRUE_DIFFERENCES \
-    LINE("sxth r6, r0") LINE("sxth r7, r2") LINE("sub r9, r7, r6") LINE("sxth r7, r4") LINE("subs r7, r7, r6") LINE("mov r6, r9")
 
 /* The run into the frame. r0: the first face. */
 #define ENTER \
@@ -110,13 +75,6 @@ _Static_assert(sizeof(record_t) == 8 && offsetof(record_t, v0) == 2 && offsetof(
     LINE("strd r7, r6, [sp, #COUNT]") \
     LINE("mov r0, r5") \
     LINE("b 11f")
-
-/* To the next face: r0. */
-#define COUNTED \
-    LINE("10: ldrh r0, [sp, #LIST + 4]") \
-    LINE("ldr r1, [sp, #COUNT]") \
-    LINE("adds r1, r1, #1") \
-    LINE("str r1, [sp, #COUNT]")
 
 /* The first centre: r0 to_x, r9 to_y. r10 address of its depth, r8 the tile's rows from there on. Then r0 ... r7 are put away, and
  * r0 is start. */
@@ -148,61 +106,11 @@ _Static_assert(sizeof(record_t) == 8 && offsetof(record_t, v0) == 2 && offsetof(
     LINE("mls r8, r6, r4, r8") \
     LINE("mvn r10, #0x80000000") \
     LINE("udiv r8, r10, r8") \
-    LINE("lsr r10, r1, #8") \
-    LINE("rsb r11, r10, r3, lsr #8") \
-    LINE("rsb r12, r10, r5, lsr #8") \
-    LINE("add r10, r11, #0x20000") \
-    LINE("add lr, r12, #0x20000") \
-    LINE("orr r10, r10, lr") \
-    LINE("lsrs r10, r10, #18") \
-    LINE("bne 71f")
-
-/* r3 dx, DY, r1 at the first centre. */
-#define DEPTH(DY) \
-    LINE("mul r3, r12, r2") \
-    LINE("mls r3, r11, r4, r3") \
-    LINE("mul " DY ", r11, r7") \
-    LINE("mls " DY ", r12, r6, " DY "") \
-    LINE("smull r3, r11, r3, r8") \
-    LINE("smull " DY ", r12, " DY ", r8") \
-    LINE("lsrs r3, r3, #19") \
-    LINE("orr r3, r3, r11, lsl #13") \
-    LINE("asr r11, r11, #19") \
-    LINE("lsr " DY ", " DY ", #19") \
-    LINE("orr " DY ", " DY ", r12, lsl #13") \
-    LINE("asr r12, r12, #19") \
-    LINE("mul r11, r11, r0") \
-    LINE("mla r11, r12, r9, r11") \
-    LINE("mov r12, #0x80000") \
-    LINE("umlal r12, r11, r3, r0") \
-    LINE("umlal r12, r11, " DY ", r9") \
-    LINE("bic r1, r1, #0xff") \
-    LINE("add r1, r1, r12, lsr #4") \
-    LINE("add r1, r1, r11, lsl #28")
-
-/* It begins above the tile: r9 is to_y. */
-#define ABOVE \
-    LINE("70: movs r8, #0") \
-    LINE("b 13b") \
-    LINE("89: str r0, [sp, #LIST]") \
-    LINE("b 90f")
+    DEPTHS
 
 /* Is it short, and inside the tile's columns? */
 #define TESTS \
-    LINE("movw r10, #1022") \
-    LINE("addw r9, r6, #511") \
-    LINE("cmp r9, r10") \
-    LINE("bhi 90f") \
-    LINE("addw r9, r7, #511") \
-    LINE("cmp r9, r10") \
-    LINE("bhi 90f") \
-    LINE("sub r9, r6, r7") \
-    LINE("addw r9, r9, #511") \
-    LINE("cmp r9, r10") \
-    LINE("bhi 90f") \
-    LINE("orr r9, r2, r4") \
-    LINE("cmp r9, #512") \
-    LINE("bhs 90f") \
+    SHORT \
     LINE("ldrd r10, r11, [sp, #MATERIAL + 4]") \
     LINE("sub r9, r0, r10") \
     LINE("add r10, r9, r6") \
@@ -213,16 +121,6 @@ _Static_assert(sizeof(record_t) == 8 && offsetof(record_t, v0) == 2 && offsetof(
     LINE("it lo") \
     LINE("cmplo r12, r11") \
     LINE("blo 12b")
-
-/* Back to C, the face at LIST undrawn. */
-#define LEAVE \
-    LINE("90: ldr r0, [sp, #RUN]") \
-    LINE("ldr r1, [sp, #LIST]") \
-    LINE("ldrd r3, r2, [sp, #COUNT]") \
-    LINE("adds r0, r0, #RUN_LIST") \
-    LINE("stm r0, {r1, r2, r3}") \
-    LINE("add sp, sp, #FRAME") \
-    LINE("pop {r4-r11, pc}")
 
 /* The edges of a triangle, its mid corner being (XM, YM), on the side of the bend, its lowest one (XL, YL); r0 start, r9 to_y, r8
  * rows left of the tile. Left sides are held as the first column, right ones as the last. Then the first row that is not empty:

@@ -12,48 +12,14 @@
  */
 #include "../tune.h"
 
-#include "textured_thumb.h"
-
-#include <stddef.h>
-
 #include "../assembly.h"
+#include "textured_thumb.h"
 
 #if ASSEMBLY_THUMB
 
-/* A triangle whose depths are far apart, with its gradients: by registers, r0 ... r7, r9, r10, lr, and what rows keep in memory. */
-typedef struct textured_far {
-    uint32_t to_x;
-    uint32_t depth; /* in: depth_light of the first corner; out: at the first centre */
-    int32_t y1;
-    uint32_t depth_dx; /* in: depth_light of the second */
-    int32_t y2;
-    uint32_t depth_dy; /* in: of the third */
-    int32_t x1, x2;
-    uint32_t to_y;
-    uint32_t light_dx, light, light_dy;
-} textured_far_t;
-
-void textured_thumb_far(textured_far_t *face);
-
-void textured_thumb_far(textured_far_t *face) {
-    const small_corners_t corners = {0, 0, face->x1, face->y1, face->x2, face->y2};
-    const vertex_t v0 = {0, 0, face->depth};
-    const int32_t z0 = (int32_t)(face->depth >> 8), light0 = (int32_t)(face->depth & 0xff);
-    const triangle_gradients_t g =
-        small_gradients_exact(&corners, (int32_t)(face->depth_dx >> 8) - z0, (int32_t)(face->depth_dy >> 8) - z0,
-                              (int32_t)(face->depth_dx & 0xff) - light0, (int32_t)(face->depth_dy & 0xff) - light0, true);
-    face->depth = (uint32_t)small_at(g.depth, triangle_depth_of(&v0), (small_int_t)face->to_x, (small_int_t)face->to_y);
-    face->depth_dx = (uint32_t)g.depth.dx;
-    face->depth_dy = (uint32_t)g.depth.dy;
-    face->light =
-        TEXTURED_BIAS + (uint32_t)small_at(g.light, triangle_light_of(&v0), (small_int_t)face->to_x, (small_int_t)face->to_y);
-    face->light_dx = (uint32_t)g.light.dx;
-    face->light_dy = (uint32_t)g.light.dy;
-}
+#include "thumb.h"
 
 /* clang-format off */
-
-#define LINE(text) text "\n"
 
 /* At the stack pointer, bytes. The side of the bend is the one that changes there. */
 #define FRAME \
@@ -76,7 +42,7 @@ void textured_thumb_far(textured_far_t *face) {
     LINE(".equ LEVEL, COPY + 80") \
     LINE(".equ LEFT, COPY + 120")     /* and width */ \
     LINE(".equ OTHER, COPY + 128")    /* and mask, texels */ \
-    LINE(".equ COPIED, 176") \
+    LINE(".equ RUN_LIST, 176") \
     LINE(".equ DEPTH_DY, 204") \
     LINE(".equ LIGHT_DY, 208") \
     LINE(".equ MAP_DY, 212") \
@@ -92,7 +58,8 @@ void textured_thumb_far(textured_far_t *face) {
     LINE(".equ RUN, 272")         /* textured_run_t */ \
     LINE(".equ COUNT, 276") \
     LINE(".equ END, 280") \
-    LINE(".equ FAR, 284")         /* textured_far_t */ \
+    LINE(".equ KEPT, 0") \
+    LINE(".equ FAR, 284")         /* small_far_t */ \
     LINE(".equ FRAME, 340") \
     LINE(".equ FROM_CORNER, 0")       /* of a level */ \
     LINE(".equ ALWAYS, 4") \
@@ -104,13 +71,10 @@ void textured_thumb_far(textured_far_t *face) {
 _Static_assert(offsetof(textured_run_t, palette) == 16 && offsetof(textured_run_t, source) == 32 &&
                    offsetof(textured_run_t, s_inside) == 64 && offsetof(textured_run_t, level) == 80 &&
                    offsetof(textured_run_t, left) == 120 && offsetof(textured_run_t, other) == 128 &&
-                   offsetof(textured_run_t, list) == 176 && sizeof(textured_run_level_t) == 40 &&
-                   offsetof(textured_run_level_t, lower) == 16 && offsetof(textured_run_level_t, s_unit) == 32 &&
-                   sizeof(textured_far_t) == 48 && offsetof(textured_far_t, light_dy) == 44,
+                   offsetof(textured_run_t, place) == 176 && sizeof(textured_run_level_t) == 40 &&
+                   offsetof(textured_run_level_t, lower) == 16 && offsetof(textured_run_level_t, s_unit) == 32,
                "offsets in the assembly");
-_Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && offsetof(record_t, d2) == 5 &&
-                   offsetof(record_t, material) == 6 && offsetof(record_surface_t, source) == 8 && sizeof(vertex_t) == 8 &&
-                   TRIANGLE_SMALL_DEPTH == 1 << 17 && TEXTURED_FRACTION == 8 && TEXTURED_BIAS == 1 << 25,
+_Static_assert(offsetof(record_surface_t, source) == 8 && TEXTURED_FRACTION == 8 && TEXTURED_BIAS == 1 << 25,
                "numbers in the assembly");
 
 /* r4: second word of the record; r3: its first word; r1: vertices; lr: texcoords. To r0 x|y, r1 depth and light ... of three
@@ -132,14 +96,6 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("ldrd r0, r1, [r8]") \
     LINE("ldrd r2, r3, [r9]") \
     LINE("ldrd r4, r5, [r10]")
-
-/* r0 x0, r8 y0, r6 x1, r2 y1, r7 x2, r4 y2, from the first corner for the others. */
-#define DIFFERENCES(x1, x2) \
-    LINE("asrs r8, r0, #16") \
-    x1 x2 \
-    LINE("rsb r2, r8, r2, asr #16") \
-    LINE("rsb r4, r8, r4, asr #16") \
-    LINE("sxth r0, r0")
 
 /* The edges of a triangle, its mid corner being (XM, YM), on the side of the bend, its lowest one (XL, YL); r0 start, r9 to_y, r8
  * rows left of the tile. Then the rows. r1 depth, r3 its dx, lr light, r10 its dx, r8 rows, r9 the bend's side, r11 the other one. */
@@ -313,10 +269,7 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("strd r2, r1, [sp, #COUNT]")
         LINE("b 11f")
 
-        LINE("10: ldrh r0, [sp, #LIST + 4]")
-        LINE("ldr r1, [sp, #COUNT]")
-        LINE("adds r1, r1, #1")
-        LINE("str r1, [sp, #COUNT]")
+        COUNTED
 
         /* r0: the face's record, number + 1 */
         LINE("11: ldr r1, [sp, #LIMIT]")
@@ -337,7 +290,7 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("cmp r7, #0")
         LINE("beq 80f")
         CORNERS
-        DIFFERENCES(LINE("subs r6, r2, r0") LINE("sxth r6, r6"), LINE("subs r7, r4, r0") LINE("sxth r7, r7"))
+        DIFFERENCES(NEAR_DIFFERENCES)
 
         /* the first centre */
         LINE("12: ldrd r9, r10, [sp, #TOP]")
@@ -479,65 +432,10 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("str r10, [sp, #MAP_DY]")
         LINE("ldr r1, [sp, #DEPTH_LIGHT]")
 
-        /* r11, r12: differences of depth */
-        LINE("lsr r10, r1, #8")
-        LINE("rsb r11, r10, r3, lsr #8")
-        LINE("rsb r12, r10, r5, lsr #8")
-        LINE("add r10, r11, #0x20000")
-        LINE("add lr, r12, #0x20000")
-        LINE("orr r10, r10, lr")
-        LINE("lsrs r10, r10, #18")
-        LINE("bne 71f")
-
-        /* light: r3, r5 differences; r10 dx; lr at the centre, modulo 2^32 */
-        LINE("subs r3, r3, r1")
-        LINE("sub r3, r3, r11, lsl #8")
-        LINE("subs r5, r5, r1")
-        LINE("sub r5, r5, r12, lsl #8")
-        LINE("mul r10, r5, r2")
-        LINE("mls r10, r3, r4, r10")
-        LINE("mul r3, r3, r7")
-        LINE("mls r3, r5, r6, r3")
-        LINE("smull r10, lr, r10, r8")
-        LINE("smull r3, r5, r3, r8")
-        LINE("lsr r10, r10, #3")
-        LINE("orr r10, r10, lr, lsl #29")
-        LINE("asr lr, lr, #3")
-        LINE("lsrs r3, r3, #3")
-        LINE("orr r3, r3, r5, lsl #29")
-        LINE("asrs r5, r5, #3")
-        LINE("mul lr, lr, r0")
-        LINE("mla lr, r5, r9, lr")
-        LINE("mov r5, #0x28000000")         /* half and TEXTURED_BIAS, times 16 */
-        LINE("umlal r5, lr, r10, r0")
-        LINE("umlal r5, lr, r3, r9")
-        LINE("str r3, [sp, #LIGHT_DY]")
-        LINE("lsl lr, lr, #28")
-        LINE("add lr, lr, r5, lsr #4")
-        LINE("add lr, lr, r1, lsl #24")
-
-        /* depth: r3 dx; r1 at the centre */
-        LINE("mul r3, r12, r2")
-        LINE("mls r3, r11, r4, r3")
-        LINE("mul r5, r11, r7")
-        LINE("mls r5, r12, r6, r5")
-        LINE("smull r3, r11, r3, r8")
-        LINE("smull r5, r12, r5, r8")
-        LINE("lsrs r3, r3, #19")
-        LINE("orr r3, r3, r11, lsl #13")
-        LINE("asr r11, r11, #19")
-        LINE("lsrs r5, r5, #19")
-        LINE("orr r5, r5, r12, lsl #13")
-        LINE("asr r12, r12, #19")
-        LINE("mul r11, r11, r0")
-        LINE("mla r11, r12, r9, r11")
-        LINE("mov r12, #0x80000")
-        LINE("umlal r12, r11, r3, r0")
-        LINE("umlal r12, r11, r5, r9")
+        DEPTHS
+        LIGHT("0x28000000")                 /* half and TEXTURED_BIAS, times 16 */
+        DEPTH("r5")
         LINE("str r5, [sp, #DEPTH_DY]")
-        LINE("bic r1, r1, #0xff")
-        LINE("add r1, r1, r12, lsr #4")
-        LINE("add r1, r1, r11, lsl #28")
 
         LINE("14: ldrd r8, r5, [sp, #ROWS_LEFT]")
         LINE("sub r0, r5, r0, lsl #16")
@@ -551,19 +449,16 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
 
     /* What is seldom. */
     __asm__ volatile(
-        /* it begins above the tile: r9 is to_y */
-        LINE("70: movs r8, #0")
-        LINE("b 13b")
-
-        LINE("89: str r0, [sp, #LIST]")
-        LINE("b 90f")
+        ABOVE
 
         LINE("71: add r12, sp, #FAR")
         LINE("stm r12, {r0-r7, r9}")
         LINE("mov r0, r12")
-        LINE("bl textured_thumb_far")
+        LINE("movs r1, #1")
+        LINE("bl small_thumb_far")
         LINE("add r12, sp, #FAR")
         LINE("ldm r12, {r0-r7, r9, r10, lr}")
+        LINE("add lr, lr, #0x2000000")      /* TEXTURED_BIAS */
         LINE("ldr r8, [sp, #FAR + 44]")
         LINE("strd r5, r8, [sp, #DEPTH_DY]")
         LINE("b 14b")
@@ -603,22 +498,8 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         /* nothing is known of the face: is it short, and inside the tile's columns? */
         LINE("80:")
         CORNERS
-        DIFFERENCES(LINE("sxth r6, r0") LINE("sxth r7, r2") LINE("subs r6, r7, r6"),
-                    LINE("sxth r7, r0") LINE("sxth r9, r4") LINE("sub r7, r9, r7"))
-        LINE("movw r10, #1022")
-        LINE("addw r9, r6, #511")
-        LINE("cmp r9, r10")
-        LINE("bhi 90f")
-        LINE("addw r9, r7, #511")
-        LINE("cmp r9, r10")
-        LINE("bhi 90f")
-        LINE("sub r9, r6, r7")
-        LINE("addw r9, r9, #511")
-        LINE("cmp r9, r10")
-        LINE("bhi 90f")
-        LINE("orr r9, r2, r4")
-        LINE("cmp r9, #512")
-        LINE("bhs 90f")
+        DIFFERENCES(TRUE_DIFFERENCES)
+        SHORT
         LINE("ldr r9, [sp, #LEFT]")
         LINE("ldr r10, [sp, #LEFT + 4]")
         LINE("sub r9, r0, r9")
@@ -632,13 +513,9 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("cmp r9, r10")
         LINE("blo 12b")
 
-        LINE("90: ldr r0, [sp, #RUN]")
-        LINE("ldr r1, [sp, #LIST]")
-        LINE("ldrd r3, r2, [sp, #COUNT]")
-        LINE("adds r0, r0, #COPIED")
-        LINE("stm r0, {r1, r2, r3}")
-        LINE("add sp, sp, #FRAME")
-        LINE("pop {r4-r11, pc}"));
+        LEAVE);
 }
+
+/* clang-format on */
 
 #endif

@@ -13,7 +13,7 @@ typedef struct textured_run_level {
     uint32_t unused;
 } textured_run_level_t;
 
-/* What the loop reads, and where it has come to. The assembly copies all but the last three to its stack. */
+/* What the loop reads, and where it has come to. The assembly copies all but the place to its stack. */
 typedef struct textured_run {
     uint32_t mask; /* textured_map_t: mask, with shift in its lowest 8 bits, which are 0 there */
     const void *texels;
@@ -40,16 +40,14 @@ typedef struct textured_run {
     textured_run_level_t other; /* another one that faces may want; */
     uint32_t other_mask;        /* its own */
     const void *other_texels;
-    uint32_t list;  /* number + 1 of the next face's record */
-    uint16_t *end;  /* where the number of the next face that reaches below the tile is put */
-    uint32_t count; /* faces that were drawn */
+    small_place_t place;
 } textured_run_t;
 
 /* What rounds red, blue and, by its low half, green. The pixels of a row are counted in the bits from 22 on, less 1. */
 #define TEXTURED_RUN_ROUND (0x10020u - (1u << 22))
 
-/* Draws faces from run->list on with light at the corners, until it meets one that it leaves to the caller: behind the limit, no
- * triangle, of another source, or a level that is neither of the two, not short, not inside the tile's columns, or one that
+/* Draws faces from run->place.list on with light at the corners, until it meets one that it leaves to the caller: behind the limit,
+ * no triangle, of another source, or a level that is neither of the two, not short, not inside the tile's columns, or one that
  * textured_map_make looks at twice. */
 void textured_thumb(textured_run_t *run);
 

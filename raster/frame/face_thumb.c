@@ -1,7 +1,6 @@
 /* The loop of face_plain.c: 20 instructions for a face that is turned away, about 59 for one that is kept, where gcc 12 takes 26
- * and
- * 80. Corners are read again where the topmost has been found, in the order that they have from there on, so that none is moved;
- * records are stored as words. What the loop wants seldom lies on the stack.
+ * and 80. Corners are read again where the topmost has been found, in the order that they have from there on, so that none is
+ * moved; records are stored as words. What the loop wants seldom lies on the stack.
  */
 #include "../tune.h"
 
@@ -17,7 +16,6 @@ typedef struct face_pair {
     uint32_t first, second;
 } face_pair_t;
 
-/* What is read two at a time. */
 /* What is written, and what is read two at a time. */
 typedef struct face_run {
     face_pair_t bucket; /* its first pixel row; rows of a tile */

@@ -5,7 +5,7 @@
 #define TUILE_VISIBILITY_SMALLS_TEXTURED_H
 
 #include "../fill/textured_thumb.h"
-#include "rows.h"
+#include "smalls_place.h"
 
 /* The run of a tile, without what a source and a level decide. */
 TUILE_INLINE textured_run_t smalls_textured_run(const tuile_t *t, walk_t *walk, uint32_t limit, const small_tile_t *tile) {
@@ -23,8 +23,7 @@ TUILE_INLINE textured_run_t smalls_textured_run(const tuile_t *t, walk_t *walk, 
                             .stride = (int32_t)(tile->stride * (small_int_t)sizeof(uint16_t)),
                             .left = tile->left,
                             .width = tile->width,
-                            .list = walk->list,
-                            .end = walk->left.end ? walk->left.end : &walk->left.first};
+                            .place = smalls_place(walk)};
 }
 
 /* What t->textured_source decides. */
@@ -69,7 +68,7 @@ static inline void smalls_textured_level(const tuile_t *t, textured_run_t *run) 
 static inline bool smalls_textured_beside(tuile_t *t, walk_t *walk, textured_run_t *run, const record_t *record,
                                           const small_tile_t *tile) {
     const vertex_t *v0 = t->vertices + record->v0, *v1 = v0 + record->d1, *v2 = v0 + record->d2;
-    const uint32_t number = run->list - 1u;
+    const uint32_t number = run->place.list - 1u;
     small_paint_t paint = {.constants = textured_constants()};
     small_face_t face;
     if (!small_open(&face, v0, v1, v2, tile, 0) ||
@@ -77,15 +76,7 @@ static inline bool smalls_textured_beside(tuile_t *t, walk_t *walk, textured_run
         return false;
     }
     const bool reaches = small_fill_clamped(&face, v0, v1, v2, tile, SMALL_TEXTURED, true, 0, &paint);
-    run->list = record->next;
-    run->count++;
-    walk->left.end = run->end == &walk->left.first ? NULL : run->end;
-    if (t->tile_columns > 1) {
-        columns_hand_on(t, number, (uint32_t)t->tile.left / t->config.tile_width, (int32_t)tile->bottom, &walk->right, &walk->left);
-    } else if (reaches) {
-        list_append(t, &walk->left, number);
-    }
-    if (walk->left.end) { run->end = walk->left.end; }
+    smalls_place_pass(t, walk, &run->place, reaches);
     return true;
 }
 
@@ -108,8 +99,8 @@ static inline void smalls_textured_thumb(tuile_t *t, walk_t *walk, uint32_t limi
     uint32_t material = UINT32_MAX, level = UINT32_MAX; /* of the run: by their numbers */
     for (;;) {
         textured_thumb(&run);
-        if (run.list - 1u >= limit) { break; }
-        const record_t *record = frame_record(t, run.list - 1u);
+        if (run.place.list - 1u >= limit) { break; }
+        const record_t *record = frame_record(t, run.place.list - 1u);
         if (!frame_record_is_triangle(record) || !textured_fits(t, record)) { break; }
         if (run.source == t->textured_source && !smalls_textured_find(t, record) &&
             !smalls_textured_beside(t, walk, &run, record, &tile)) {
@@ -122,10 +113,8 @@ static inline void smalls_textured_thumb(tuile_t *t, walk_t *walk, uint32_t limi
         material = number;
         level = t->textured_last.level.number;
     }
-    walk->list = (uint16_t)run.list;
-    walk->left.end = run.end == &walk->left.first ? NULL : run.end;
-    t->stats.faces_setup += run.count;
-    if (run.count) { t->textured_any = true; }
+    smalls_place_end(t, walk, &run.place);
+    if (run.place.count) { t->textured_any = true; }
 }
 
 #endif

@@ -3,7 +3,7 @@
 #define TUILE_VISIBILITY_SMALLS_THUMB_H
 
 #include "../fill/small_thumb.h"
-#include "rows.h"
+#include "smalls_place.h"
 
 /* The run of a tile whose next face is the first one of the list. */
 TUILE_INLINE small_run_t smalls_run(tuile_t *t, walk_t *walk, uint32_t limit, const small_tile_t *tile) {
@@ -20,8 +20,7 @@ TUILE_INLINE small_run_t smalls_run(tuile_t *t, walk_t *walk, uint32_t limit, co
                          .material = -1,
                          .left = tile->left,
                          .width = tile->width,
-                         .list = walk->list,
-                         .end = walk->left.end ? walk->left.end : &walk->left.first};
+                         .place = smalls_place(walk)};
 }
 
 TUILE_INLINE void smalls_run_draw(small_run_t *run, small_kind_t kind) {
@@ -35,7 +34,7 @@ TUILE_INLINE void smalls_run_draw(small_run_t *run, small_kind_t kind) {
 /* Flat, a face whose colour is not in the ramp: into the ramp with it, or drawn alone. False: it is not drawn. */
 static inline bool smalls_given(tuile_t *t, small_run_t *run, const record_t *record) {
     const uint16_t *const ramp = run->ramp;
-    const uint32_t number = run->list - 1u, limit = run->limit;
+    const uint32_t number = run->place.list - 1u, limit = run->limit;
     const int32_t known = run->known;
     run->given = frame_value(t, record, number);
     if (ramp && ramp[record->light]) { return true; }
@@ -46,27 +45,18 @@ static inline bool smalls_given(tuile_t *t, small_run_t *run, const record_t *re
     run->ramp = ramp;
     run->known = known;
     run->limit = limit;
-    return run->list != number + 1u;
+    return run->place.list != number + 1u;
 }
 
 /* A face that the assembly leaves alone, of the run's material. False: it is not small. */
 static inline bool smalls_beside(tuile_t *t, walk_t *walk, small_run_t *run, const record_t *record, const small_tile_t *tile,
                                  small_kind_t kind) {
     const vertex_t *v0 = t->vertices + record->v0, *v1 = v0 + record->d1, *v2 = v0 + record->d2;
-    const uint32_t number = run->list - 1u;
     const small_paint_t paint = {.value = (uint16_t)run->given, .ramp = run->ramp};
     small_face_t face;
     if (!small_open(&face, v0, v1, v2, tile, 0)) { return false; }
     const bool reaches = small_fill_clamped(&face, v0, v1, v2, tile, kind, kind == SMALL_GOURAUD, record->light, &paint);
-    run->list = record->next;
-    run->count++;
-    walk->left.end = run->end == &walk->left.first ? NULL : run->end;
-    if (t->tile_columns > 1) {
-        columns_hand_on(t, number, (uint32_t)t->tile.left / t->config.tile_width, (int32_t)tile->bottom, &walk->right, &walk->left);
-    } else if (reaches) {
-        list_append(t, &walk->left, number);
-    }
-    if (walk->left.end) { run->end = walk->left.end; }
+    smalls_place_pass(t, walk, &run->place, reaches);
     return true;
 }
 
@@ -77,8 +67,8 @@ static inline void smalls_thumb(tuile_t *t, walk_t *walk, uint32_t limit, small_
     small_run_t run = smalls_run(t, walk, limit, &tile);
     for (;;) {
         if (run.ramp) { smalls_run_draw(&run, kind); }
-        if (run.list - 1u >= limit) { break; }
-        const record_t *record = frame_record(t, run.list - 1u);
+        if (run.place.list - 1u >= limit) { break; }
+        const record_t *record = frame_record(t, run.place.list - 1u);
         if (!frame_record_is_triangle(record)) { break; }
         if (record->material != run.material) {
             run.material = record->material;
@@ -93,9 +83,7 @@ static inline void smalls_thumb(tuile_t *t, walk_t *walk, uint32_t limit, small_
         }
         if (!smalls_beside(t, walk, &run, record, &tile, kind)) { break; }
     }
-    walk->list = (uint16_t)run.list;
-    walk->left.end = run.end == &walk->left.first ? NULL : run.end;
-    t->stats.faces_setup += run.count;
+    smalls_place_end(t, walk, &run.place);
 }
 
 #endif

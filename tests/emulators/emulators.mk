@@ -118,7 +118,7 @@ TWINS = @sh $(EMULATORS)/twins.sh $(FIRMWARE)/twins $(1) '$(2)' '$(3)' cortex-m3
 test-firmware-twins: $(BUILD)/need/bench-targets # that assembly does to the byte what its C twin does
 	$(call TWINS,vertex,raster/geometry/vertex.c raster/geometry/vertex_thumb.c,vertex_thumb)
 	$(call TWINS,small,raster/visibility/zbuffer.c raster/fill/small_thumb.c raster/fill/small_thumb_flat.c,small_thumb_gouraud small_thumb_flat)
-	$(call TWINS,textured,raster/visibility/zbuffer_textured.c raster/fill/textured_thumb.c raster/surface/textured.c,textured_thumb)
+	$(call TWINS,textured,raster/visibility/zbuffer_textured.c raster/fill/textured_thumb.c raster/fill/small_thumb.c raster/surface/textured.c,textured_thumb)
 	$(call TWINS,face,raster/frame/face_plain.c raster/frame/face_thumb.c,face_thumb)
 
 test-firmware: test-firmware-checks test-firmware-harness test-firmware-input test-firmware-twins $(BOARDS:%=test-firmware-%) ## boards in emulators: frames equal to the simulator's, faults, sizes, stack

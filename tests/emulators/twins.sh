@@ -26,7 +26,7 @@ for target; do
     # shellcheck disable=SC2086 # words
     sh "$qemu_folder/cc.sh" "$target" -Wall -Wextra -Werror -fno-tree-loop-distribute-patterns -nostdlib -nostartfiles -Wl,--gc-sections -Wl,-T,"$qemu_folder/guest.ld" \
         -Wl,--defsym=FLASH="$flash" -Wl,--defsym=RAM="$ram" -DGUEST_MODEL="\"$here/twins.h\"" $wraps "$qemu_folder/$start" tests/emulators/twins.c \
-        "tests/emulators/twins_$name.c" tests/support/random.c $objects -lgcc -o "$folder/twins.elf"
+        "tests/emulators/twins_$name.c" tests/emulators/twins_faces.c tests/support/random.c $objects -lgcc -o "$folder/twins.elf"
     code=0
     # shellcheck disable=SC2086 # words
     timeout 300 $qemu -display none -monitor none -serial none -semihosting-config enable=on,target=native -kernel "$folder/twins.elf" \

@@ -4,11 +4,10 @@
  * may be made for a face that is then left alone.
  */
 #include "twins.h"
+#include "twins_faces.h"
 
 #include "../../raster/fill/small_thumb.h"
 #include "../../raster/memory.h"
-#include "../../raster/visibility/rows.h"
-#include "../support/random.h"
 
 void c_smalls_plain(tuile_t *t, walk_t *walk, uint32_t limit);
 void __real_small_thumb_gouraud(small_run_t *run);
@@ -18,15 +17,11 @@ void __wrap_small_thumb_flat(small_run_t *run);
 
 enum {
     ROUNDS = 12000,
-    FACES = 12,
-    SIDE = 48,         /* the largest tile */
-    AROUND = 3 * SIDE, /* pixels before and behind it, which must stay as they are */
     RAMPS = 3,
-    PIXELS = SIDE * SIDE + 2 * AROUND,
 };
 
 typedef struct world {
-    uint16_t depth[PIXELS], colour[PIXELS];
+    faces_pixels_t pixels;
     uint16_t ramps[RAMPS][RAMP_COLOURS], flat[RAMPS][256];
     int16_t tags[RAMPS];
     _Alignas(8) uint8_t records[FACES * sizeof(record_surface_t)]; /* the first one last */
@@ -40,15 +35,15 @@ static world_t world, before, assembly;
 static uint32_t drawn;
 
 void __wrap_small_thumb_gouraud(small_run_t *run) {
-    const uint32_t before = run->count;
+    const uint32_t before = run->place.count;
     __real_small_thumb_gouraud(run);
-    drawn += run->count - before;
+    drawn += run->place.count - before;
 }
 
 void __wrap_small_thumb_flat(small_run_t *run) {
-    const uint32_t before = run->count;
+    const uint32_t before = run->place.count;
     __real_small_thumb_flat(run);
-    drawn += run->count - before;
+    drawn += run->place.count - before;
 }
 
 /* ---- the rest of the renderer, as far as it is called ---- */
@@ -76,120 +71,17 @@ uint32_t frame_flat(const tuile_t *of, const record_t *record) {
 
 /* ---- cases ---- */
 
-static vertex_t vertices[3 * FACES];
-static tuile_t t;
-
-/* What a case is drawn in; lists of columns.h are not asked for. */
-static void random_tile(random_source_t *random) {
-    const int32_t width = random_between(random, random_one_in(random, 2) ? 4 : 34, SIDE), height = random_between(random, 1, SIDE);
-    const bool columns = random_one_in(random, 3);
-    const int32_t column = columns ? random_between(random, 0, 2) : 0;
-    const int32_t top = random_one_in(random, 2) ? 0 : random_between(random, 0, 1900);
-    t.config.tile_width = (uint16_t)width;
-    t.tile_columns = columns ? 3 : 1;
-    t.tile = (raster_tile_t){.depth = world.depth + AROUND,
-                             .colour = world.colour + AROUND,
-                             .left = column * width,
-                             .top = top,
-                             .right = (column + 1) * width,
-                             .bottom = top + height,
-                             .stride_px = random_between(random, width, SIDE)};
-}
-
-static int32_t clamped(int64_t x, int64_t low, int64_t high) { return (int32_t)(x < low ? low : x > high ? high : x); }
-
-static int64_t area_of(const vertex_t *v) {
-    return (int64_t)(v[2].x - v[0].x) * (v[1].y - v[0].y) - (int64_t)(v[1].x - v[0].x) * (v[2].y - v[0].y);
-}
-
-/* Three corners, the first one topmost, counter-clockwise as seen, which span a row of the tile. */
-static void random_triangle(random_source_t *random, vertex_t *v) {
-    const raster_tile_t *tile = &t.tile;
-    for (;;) {
-        const int32_t size = random_one_in(random, 8) ? random_between(random, SHORT_SIDE - 64, 16 * SIDE)
-                                                      : 1 << random_between(random, 1, random_one_in(random, 16) ? 14 : 9);
-        const int64_t steep = (int64_t)1 << random_between(random, 0, 25);
-        const int32_t x = random_between(random, 16 * tile->left - 60, 16 * tile->right + 20),
-                      y = random_between(random, 16 * tile->top - 150, 16 * tile->bottom + 8);
-        const int64_t z = random_between(random, (int32_t)VERTEX_DEPTH_MIN, (int32_t)VERTEX_DEPTH_MAX);
-        const bool edge = random_one_in(random, 4), even = random_one_in(random, 4);
-        int first = 0, last = 0;
-        for (int i = 0; i < 3; i++) {
-            const int64_t depth = random_one_in(random, 16)
-                                      ? z + (random_one_in(random, 2) ? -1 : 1) * ((INT64_C(1) << 17) - (i & 1))
-                                      : z + random_between(random, (int32_t)-steep, (int32_t)steep);
-            const int32_t light =
-                edge ? (random_one_in(random, 2) ? LIGHT_MIN : LIGHT_MAX) : random_between(random, LIGHT_MIN, LIGHT_MAX);
-            v[i] = (vertex_t){(int16_t)clamped(x + random_between(random, 0, size), -32760, 32752),
-                              (int16_t)clamped(y + random_between(random, 0, size), -32760, 32752),
-                              (uint32_t)clamped(depth, VERTEX_DEPTH_MIN, VERTEX_DEPTH_MAX) << 8 | (uint32_t)light};
-            if (even && i == 2) { v[2].y = v[random_bits(random) & 1].y; } /* flat above or below */
-        }
-        if (random_one_in(random, 12)) { /* a side at the limit of short ones */
-            const int corner = random_between(random, 0, 2), next = (corner + 1) % 3, last_one = (corner + 2) % 3;
-            const int32_t side = SHORT_SIDE + random_between(random, -1, 1);
-            v[corner].x = (int16_t)(16 * tile->left + random_between(random, -7, 40));
-            v[next].x = (int16_t)(v[corner].x + side);
-            v[last_one].x = (int16_t)(v[corner].x + random_between(random, 0, side));
-        }
-        if (random_one_in(random, 16)) { v[1].x = (int16_t)(v[0].x < 0 ? 32752 : v[0].x > 0 ? -32760 : v[1].x); }
-        if (area_of(v) < 0) {
-            const vertex_t swap = v[1];
-            v[1] = v[2];
-            v[2] = swap;
-        }
-        while (v[0].y > v[1].y || v[0].y > v[2].y) {
-            const vertex_t swap = v[0];
-            v[0] = v[1];
-            v[1] = v[2];
-            v[2] = swap;
-        }
-        first = edge_row(v[0].y);
-        last = edge_row(v[1].y > v[2].y ? v[1].y : v[2].y);
-        if (area_of(v) > 0 && first < last && first < tile->bottom && last > tile->top) { return; }
-    }
-}
-
-static bool is_short(const vertex_t *v) {
-    for (int i = 0; i < 3; i++) {
-        const int32_t x = v[i].x - v[(i + 1) % 3].x, y = v[i].y - v[(i + 1) % 3].y;
-        if (x >= SHORT_SIDE || x <= -SHORT_SIDE || y >= SHORT_SIDE || y <= -SHORT_SIDE) { return false; }
-    }
-    return true;
-}
-
-/* It touches no column beside the tile. */
-static bool is_inside(const vertex_t *v) {
-    for (int i = 0; i < 3; i++) {
-        if (edge_row(v[i].x) < t.tile.left || edge_row(v[i].x) > t.tile.right) { return false; }
-    }
-    return true;
-}
-
 static const record_t *record_before(uint32_t number) {
     return (const record_t *)(const void *)(before.records + sizeof before.records - (number + 1) * t.record_bytes);
 }
 
-/* Faces in a list, some of which is left out. In columns all triangles are short (columns.h). */
+/* Faces in a list, some of which is left out. */
 static void random_list(random_source_t *random) {
     const bool small = random_one_in(random, 2);
     uint16_t list = RECORD_NONE;
     for (uint32_t i = FACES; i-- > 0;) {
-        vertex_t *v = &vertices[3 * i];
-        const bool swap = random_one_in(random, 2);
-        do {
-            random_triangle(random, v);
-        } while (((small || t.tile_columns > 1) && !is_short(v)) || (small && t.tile_columns == 1 && !is_inside(v)));
-        *frame_record(&t, i) =
-            (record_t){.next = list, .v0 = (uint16_t)(3 * i), .d1 = 1, .d2 = 2, .light = (uint8_t)random_bits(random)};
-        frame_record(&t, i)->material = (uint8_t)(random_one_in(random, 4) ? random_between(random, 0, 5) : 1);
-        if (swap) { /* the corners from the last one on */
-            const vertex_t corner = v[0];
-            v[0] = v[2], v[2] = corner;
-            frame_record(&t, i)->v0 = (uint16_t)(3 * i + 2);
-            frame_record(&t, i)->d1 = -1, frame_record(&t, i)->d2 = -2;
-        }
-        if (random_one_in(random, 24)) { frame_record(&t, i)->d1 = frame_record(&t, i)->d2 = 0; }
+        record_t *record = faces_random_record(random, i, list, small, 24);
+        record->material = (uint8_t)(random_one_in(random, 4) ? random_between(random, 0, 5) : 1);
         if (!random_one_in(random, 8)) { list = (uint16_t)(i + 1); }
     }
     t.small = small;
@@ -205,14 +97,6 @@ static void random_list(random_source_t *random) {
     }
 }
 
-static void random_pixels(random_source_t *random) {
-    for (size_t i = 0; i < PIXELS; i++) {
-        const uint32_t at = (uint32_t)(random_bits(random) % (3 * FACES));
-        world.depth[i] = (uint16_t)(random_one_in(random, 2) ? 0 : vertices[at].depth_light >> 16);
-        world.colour[i] = (uint16_t)random_bits(random);
-    }
-}
-
 static void draw(void (*smalls)(tuile_t *t, walk_t *walk, uint32_t limit), uint32_t limit) {
     t.stats.faces_setup = 0;
     smalls(&t, &world.walk, limit);
@@ -224,16 +108,17 @@ static uint32_t share(void) {
     uint32_t faces = 0;
     for (uint16_t list = before.walk.list; list != world.walk.list;) {
         const record_t *record = record_before(list - 1u);
-        const vertex_t v[3] = {vertices[record->v0], vertices[record->v0 + record->d1], vertices[record->v0 + record->d2]};
-        faces += is_short(v) && is_inside(v);
+        const vertex_t v[3] = {faces_vertices[record->v0], faces_vertices[record->v0 + record->d1],
+                               faces_vertices[record->v0 + record->d2]};
+        faces += faces_short(v) && faces_inside(v);
         list = record->next;
     }
     return faces;
 }
 
 static bool equal(void) {
-    return twins_equal("depth", assembly.depth, world.depth, sizeof world.depth) &&
-           twins_equal("colour", assembly.colour, world.colour, sizeof world.colour) &&
+    return twins_equal("depth", assembly.pixels.depth, world.pixels.depth, sizeof world.pixels.depth) &&
+           twins_equal("colour", assembly.pixels.colour, world.pixels.colour, sizeof world.pixels.colour) &&
            twins_equal("walk", &assembly.walk, &world.walk, sizeof world.walk) &&
            twins_equal("records", assembly.records, world.records, sizeof world.records) &&
            twins_equal("record above", &assembly.above, &world.above, sizeof world.above) &&
@@ -244,7 +129,7 @@ bool twins_test(void) {
     random_source_t random = random_seed(0x5a11);
     uint32_t faces = 0, by_assembly = 0, all = 0, below = 0;
     t.arena_end = world.records + sizeof world.records;
-    t.vertices = vertices;
+    t.vertices = faces_vertices;
     t.ramps = world.ramps[0];
     t.ramp_tags = world.tags;
     t.ramp_count = RAMPS;
@@ -252,11 +137,11 @@ bool twins_test(void) {
         const uint32_t limit = random_one_in(&random, 4) ? (uint32_t)random_between(&random, 0, FACES) : UINT32_MAX;
         const bool deferred = random_one_in(&random, 8);
         t.span_kind = deferred || random_one_in(&random, 2) ? SPAN_FLAT : SPAN_GOURAUD;
-        t.numbers = deferred ? world.colour : NULL;
+        t.numbers = deferred ? world.pixels.colour : NULL;
         t.record_bytes = deferred ? sizeof(record_surface_t) : sizeof(record_t);
-        random_tile(&random);
+        faces_random_tile(&random, &world.pixels);
         random_list(&random);
-        random_pixels(&random);
+        faces_random_pixels(&random, &world.pixels);
         memcpy(&before, &world, sizeof world);
         drawn = 0;
         draw(smalls_plain, limit);

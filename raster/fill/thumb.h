@@ -1,0 +1,157 @@
+/* Parts that all loops in assembly over small triangles share, with a texture and without: fill/small_thumb.c and
+ * fill/textured_thumb.c. Each loop has a frame of its own at the stack pointer, in which it names what parts ask for: RUN, LIST,
+ * COUNT, LIGHT_DY, FRAME, RUN_LIST, and KEPT, the bytes that are pushed below it while gradients are made.
+ */
+#ifndef TUILE_FILL_THUMB_H
+#define TUILE_FILL_THUMB_H
+
+#include "../frame/frame.h"
+#include "small.h"
+
+#include <stddef.h>
+
+/* A triangle whose depths are far apart, then its gradients: in the order of registers r0 ... r7, r9, r10, lr, and what rows keep
+ * in memory. */
+typedef struct small_far {
+    uint32_t to_x;
+    uint32_t depth; /* in: depth_light of the first corner; out: at the first centre */
+    int32_t y1;
+    uint32_t depth_dx; /* in: depth_light of the second */
+    int32_t y2;
+    uint32_t depth_dy; /* in: of the third */
+    int32_t x1, x2;
+    uint32_t to_y;
+    uint32_t light_dx, light, light_dy;
+} small_far_t;
+
+/* Makes them. gouraud: light's too. */
+void small_thumb_far(small_far_t *face, uint32_t gouraud);
+
+_Static_assert(sizeof(small_far_t) == 48 && offsetof(small_far_t, light_dy) == 44, "offsets in the assembly");
+_Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && offsetof(record_t, d2) == 5 &&
+                   offsetof(record_t, material) == 6 && sizeof(vertex_t) == 8 && TRIANGLE_SMALL_DEPTH == 1 << 17,
+               "numbers in the assembly");
+
+/* clang-format off */
+
+#define LINE(text) text "\n"
+
+/* r0 x0, r8 y0, r6 x1, r2 y1, r7 x2, r4 y2, from the first corner for the others. */
+#define DIFFERENCES(OF_X) \
+    LINE("asrs r8, r0, #16") \
+    OF_X \
+    LINE("rsb r2, r8, r2, asr #16") \
+    LINE("rsb r4, r8, r4, asr #16") \
+    LINE("sxth r0, r0")
+
+/* Those of x: below 2^15, and any. */
+#define NEAR_DIFFERENCES LINE("subs r6, r2, r0") LINE("sxth r6, r6") LINE("subs r7, r4, r0") LINE("sxth r7, r7")
+#define TRUE_DIFFERENCES \
+    LINE("sxth r6, r0") LINE("sxth r7, r2") LINE("sub r9, r7, r6") LINE("sxth r7, r4") LINE("subs r7, r7, r6") LINE("mov r6, r9")
+
+/* To the next face: r0. */
+#define COUNTED \
+    LINE("10: ldrh r0, [sp, #LIST + 4]") \
+    LINE("ldr r1, [sp, #COUNT]") \
+    LINE("adds r1, r1, #1") \
+    LINE("str r1, [sp, #COUNT]")
+
+/* r11, r12: differences of depth. */
+#define DEPTHS \
+    LINE("lsr r10, r1, #8") \
+    LINE("rsb r11, r10, r3, lsr #8") \
+    LINE("rsb r12, r10, r5, lsr #8") \
+    LINE("add r10, r11, #0x20000") \
+    LINE("add lr, r12, #0x20000") \
+    LINE("orr r10, r10, lr") \
+    LINE("lsrs r10, r10, #18") \
+    LINE("bne 71f")
+
+/* Of light: r10 dx, dy in memory, lr at the first centre, modulo 2^32. HALF: what rounds it, and biases it where wanted, times 16. */
+#define LIGHT(HALF) \
+    LINE("subs r3, r3, r1") \
+    LINE("sub r3, r3, r11, lsl #8") \
+    LINE("subs r5, r5, r1") \
+    LINE("sub r5, r5, r12, lsl #8") \
+    LINE("mul r10, r5, r2") \
+    LINE("mls r10, r3, r4, r10") \
+    LINE("mul r3, r3, r7") \
+    LINE("mls r3, r5, r6, r3") \
+    LINE("smull r10, lr, r10, r8") \
+    LINE("smull r3, r5, r3, r8") \
+    LINE("lsr r10, r10, #3") \
+    LINE("orr r10, r10, lr, lsl #29") \
+    LINE("asr lr, lr, #3") \
+    LINE("lsrs r3, r3, #3") \
+    LINE("orr r3, r3, r5, lsl #29") \
+    LINE("asrs r5, r5, #3") \
+    LINE("mul lr, lr, r0") \
+    LINE("mla lr, r5, r9, lr") \
+    LINE("mov r5, #" HALF) \
+    LINE("umlal r5, lr, r10, r0") \
+    LINE("umlal r5, lr, r3, r9") \
+    LINE("str r3, [sp, #KEPT + LIGHT_DY]") \
+    LINE("lsl lr, lr, #28") \
+    LINE("add lr, lr, r5, lsr #4") \
+    LINE("add lr, lr, r1, lsl #24")
+
+/* Of depth: r3 dx, DY, r1 at the first centre. */
+#define DEPTH(DY) \
+    LINE("mul r3, r12, r2") \
+    LINE("mls r3, r11, r4, r3") \
+    LINE("mul " DY ", r11, r7") \
+    LINE("mls " DY ", r12, r6, " DY) \
+    LINE("smull r3, r11, r3, r8") \
+    LINE("smull " DY ", r12, " DY ", r8") \
+    LINE("lsrs r3, r3, #19") \
+    LINE("orr r3, r3, r11, lsl #13") \
+    LINE("asr r11, r11, #19") \
+    LINE("lsr " DY ", " DY ", #19") \
+    LINE("orr " DY ", " DY ", r12, lsl #13") \
+    LINE("asr r12, r12, #19") \
+    LINE("mul r11, r11, r0") \
+    LINE("mla r11, r12, r9, r11") \
+    LINE("mov r12, #0x80000") \
+    LINE("umlal r12, r11, r3, r0") \
+    LINE("umlal r12, r11, " DY ", r9") \
+    LINE("bic r1, r1, #0xff") \
+    LINE("add r1, r1, r12, lsr #4") \
+    LINE("add r1, r1, r11, lsl #28")
+
+/* It begins above the tile: r9 is to_y. */
+#define ABOVE \
+    LINE("70: movs r8, #0") \
+    LINE("b 13b") \
+    LINE("89: str r0, [sp, #LIST]") \
+    LINE("b 90f")
+
+/* Is it short? r6, r2, r7, r4 as above; r9 and r10 are free. */
+#define SHORT \
+    LINE("movw r10, #1022") \
+    LINE("addw r9, r6, #511") \
+    LINE("cmp r9, r10") \
+    LINE("bhi 90f") \
+    LINE("addw r9, r7, #511") \
+    LINE("cmp r9, r10") \
+    LINE("bhi 90f") \
+    LINE("sub r9, r6, r7") \
+    LINE("addw r9, r9, #511") \
+    LINE("cmp r9, r10") \
+    LINE("bhi 90f") \
+    LINE("orr r9, r2, r4") \
+    LINE("cmp r9, #512") \
+    LINE("bhs 90f")
+
+/* Back to C, the face at LIST undrawn. */
+#define LEAVE \
+    LINE("90: ldr r0, [sp, #RUN]") \
+    LINE("ldr r1, [sp, #LIST]") \
+    LINE("ldrd r3, r2, [sp, #COUNT]") \
+    LINE("adds r0, r0, #RUN_LIST") \
+    LINE("stm r0, {r1, r2, r3}") \
+    LINE("add sp, sp, #FRAME") \
+    LINE("pop {r4-r11, pc}")
+
+/* clang-format on */
+
+#endif
