@@ -43,14 +43,18 @@ bool tuile_stream_one_window(const tuile_config_t *config, const tuile_display_t
            config->row_end == config->height && config->tile_step == 1 && !(config->tile_first | config->row_first);
 }
 
-/* whole: one window for all tiles, so that its commands need not go out between two of them. */
-static int send_tile(tuile_display_t *display, const tuile_tile_t *tile, bool whole) {
+int tuile_stream_send(tuile_display_t *display, const tuile_tile_t *tile, bool one_window) {
     int result = TUILE_HAL_OK;
 
-    if (!whole || tile->y == 0) {
-        result = tuile_display_window(display, tile->x, tile->y, tile->width, whole ? display->height : tile->height);
+    if (!one_window || tile->y == 0) {
+        result = tuile_display_window(display, tile->x, tile->y, tile->width, one_window ? display->height : tile->height);
     }
-    if (result == TUILE_HAL_OK) { result = tuile_display_write(display, tile->bytes, (size_t)tile->size_bytes); }
+    return result ? result : tuile_display_write(display, tile->bytes, (size_t)tile->size_bytes);
+}
+
+static int send_tile(tuile_display_t *display, const tuile_tile_t *tile, bool one_window) {
+    const int result = tuile_stream_send(display, tile, one_window);
+
     return result ? result : 1;
 }
 
@@ -80,7 +84,7 @@ int tuile_stream_tiles(tuile_t *renderer, const tuile_scene_t *scene, tuile_disp
     const bool flows = hooks->flow && display->lit;
     bool shown = !flows || !display->in_flight; /* the frame before */
     tuile_tile_t tile = {0};
-    const bool whole = !hooks->wanted && !hooks->send && tuile_stream_one_window(config, display);
+    const bool one_window = !hooks->wanted && !hooks->send && tuile_stream_one_window(config, display);
     uint32_t index = 0;
     int result, waited, ended;
 
@@ -95,7 +99,7 @@ int tuile_stream_tiles(tuile_t *renderer, const tuile_scene_t *scene, tuile_disp
         /* The first tile has a buffer of its own, since a renderer takes them in turn from frame to frame. */
         if (!shown && (result = tuile_display_present(display)) < 0) { break; }
         shown = true;
-        result = hooks->send ? hooks->send(hooks->context, display, &tile) : send_tile(display, &tile, whole);
+        result = hooks->send ? hooks->send(hooks->context, display, &tile) : send_tile(display, &tile, one_window);
         /* With one buffer the next tile overwrites this one, so there is nothing to overlap with. With two it overwrites the
          * one before, and that may still be on the wire if this one was not sent, since nothing waited for it. */
         if (result == 0 || (result > 0 && config->buffers < 2)) { result = tuile_display_wait(display); }

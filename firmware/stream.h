@@ -15,6 +15,10 @@ int tuile_stream_check(const tuile_config_t *config, const tuile_display_t *disp
  * filled when none is left out. A device of its own may do more with a window than to set it. */
 bool tuile_stream_one_window(const tuile_config_t *config, const tuile_display_t *display);
 
+/* Sends a whole tile into a window of its own, or into the one of the frame, which the first tile opens: so its commands need not
+ * go out between two tiles. 0 or a tuile_hal_error_t; tile->bytes may be on the wire then. */
+int tuile_stream_send(tuile_display_t *display, const tuile_tile_t *tile, bool one_window);
+
 /* Draws one frame and sends it. With two tile buffers (tuile_config_t.buffers) a tile is on the wire while the next is drawn.
  * The renderer's window must be as large as the display, its format the display's (tuile_stream_format) and its tiles aligned as
  * the display's windows are, else TUILE_ERROR_ARGUMENT before anything is drawn.

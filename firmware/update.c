@@ -104,18 +104,6 @@ static int send_lines(tuile_update_t *update, const layout_t *layout, const tuil
     return result;
 }
 
-/* A tile of a frame that goes into one window. */
-static int send_on(tuile_update_t *update, const tuile_tile_t *tile) {
-    int result = TUILE_HAL_OK;
-
-    update->bytes_sent += tile->size_bytes;
-    if (tile->y == 0) {
-        update->windows++;
-        result = tuile_display_window(update->display, 0, 0, update->config->width, update->config->height);
-    }
-    return result ? result : tuile_display_write(update->display, tile->bytes, (size_t)tile->size_bytes);
-}
-
 /* The last of a tile: moved together first, so that it goes out by itself while the next tile is drawn. */
 static int send_last(tuile_update_t *update, const layout_t *layout, const tuile_tile_t *tile, const run_t *run) {
     const uint32_t first = place(layout, tile, run->from), count = place(layout, tile, run->end) - first;
@@ -186,7 +174,9 @@ static int send(void *context, tuile_display_t *display, const tuile_tile_t *til
         run.end = cell.end;
     }
     if (update->one_window) {
-        result = send_on(update, tile);
+        update->windows += tile->y == 0;
+        update->bytes_sent += tile->size_bytes;
+        result = tuile_stream_send(display, tile, true);
     } else if (result == TUILE_HAL_OK && run.end > 0) {
         result = send_last(update, &layout, tile, &run);
     }
@@ -210,7 +200,7 @@ static bool touched(const tuile_update_t *update, uint32_t x, uint32_t y, uint32
 static bool wanted(void *context, uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
     tuile_update_t *update = context;
 
-    if (touched(update, x, y, width, height)) { return true; }
+    if (update->one_window || touched(update, x, y, width, height)) { return true; }
     update->tiles_skipped++;
     update->bytes_whole += width * height * tuile_wire_bits(update->display->wire) / 8u;
     return false;

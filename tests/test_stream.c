@@ -1,7 +1,6 @@
-/* Frames on their way to the panel: faults at every transfer, whose buffer it is, time on the wire, and the frame loop.
+/* The frame loop, against a renderer of our own, so that it can be made to fail at will.
  *
- * Numbers that are expected come from hand, never from the code under test. The frame loop is tested against a renderer of our own,
- * so that it can be made to fail at will. */
+ * Numbers that are expected come from hand, never from the code under test. */
 #include "support/check.h"
 
 #include "../hal/display.h"
@@ -10,187 +9,6 @@
 #include "../sim/bus.h"
 #include "../sim/chips/ili9341.h"
 #include "support/board.h"
-
-/* ---- faults ----------------------------------------------------------------------------------------------------- */
-
-/* Makes a display and a frame; the one fault must come up by the end of the frame, and stick. */
-static void check_fault_at(uint64_t transfer, uint8_t parts, bool no_reset_pin, bool blocking) {
-    board_t board;
-    int result;
-    uint64_t transfers;
-
-    board_open(&board, &(sim_bus_config_t){.fail_transfer = transfer,
-                                           .fail_parts = parts,
-                                           .no_reset_pin = no_reset_pin,
-                                           .blocking = blocking,
-                                           .max_chunk_bytes = 20000});
-    result = board_start(&board, 1, TUILE_WIRE_RGB565);
-    if (result == 0) { result = board_draw(&board.display, TUILE_WIRE_RGB565, 320, 40); }
-    assert_int_equal(result, TUILE_HAL_IO);
-    assert_int_equal(board.display.error, TUILE_HAL_IO);
-    transfers = board.bus.transfers;
-    assert_true(transfers == transfer);
-    assert_int_equal(board_draw(&board.display, TUILE_WIRE_RGB565, 320, 40), TUILE_HAL_IO);
-    assert_true(board.bus.transfers == transfers);
-    assert_int_equal(tuile_display_resume(&board.display), 0);
-    assert_true(board.display.refresh);
-    assert_int_equal(board_draw(&board.display, TUILE_WIRE_RGB565, 320, 40), 0);
-    assert_false(board.display.refresh);
-    board_check_clean(&board);
-    board_check_picture(&board, 1, TUILE_WIRE_RGB565);
-    board_close(&board);
-}
-
-static uint64_t count_transfers(bool no_reset_pin) {
-    board_t board;
-    uint64_t transfers;
-
-    board_open(&board, &(sim_bus_config_t){.no_reset_pin = no_reset_pin, .max_chunk_bytes = 20000});
-    assert_int_equal(board_start(&board, 1, TUILE_WIRE_RGB565), 0);
-    assert_int_equal(board_draw(&board.display, TUILE_WIRE_RGB565, 320, 40), 0);
-    transfers = board.bus.transfers;
-    board_close(&board);
-    return transfers;
-}
-
-static void test_fault_at_every_transfer(void **state) {
-    (void)state;
-    for (unsigned variant = 0; variant < 12; variant++) {
-        bool no_reset_pin = variant % 2, blocking = variant / 2 % 2;
-        uint64_t count = count_transfers(no_reset_pin);
-        /* 18 + 3 commands of the start, one more without the pin; 6 tiles of 3 commands and 2 chunks */
-        assert_true(count == 21u + no_reset_pin + 30u);
-        for (uint64_t transfer = 1; transfer <= count; transfer++) {
-            check_fault_at(transfer, (uint8_t)(variant / 4), no_reset_pin, blocking);
-        }
-    }
-}
-
-static void test_gone_at_every_transfer(void **state) {
-    (void)state;
-    for (uint64_t transfer = 1; transfer <= 51; transfer++) {
-        board_t board;
-        int result;
-        board_open(&board, &(sim_bus_config_t){.fail_transfer = transfer, .fail_code = TUILE_HAL_GONE, .max_chunk_bytes = 20000});
-        result = board_start(&board, 1, TUILE_WIRE_RGB565);
-        if (result == 0) { result = board_draw(&board.display, TUILE_WIRE_RGB565, 320, 40); }
-        assert_int_equal(result, TUILE_HAL_GONE);
-        assert_int_equal(tuile_display_resume(&board.display), TUILE_HAL_GONE);
-        assert_true(board.bus.transfers == transfer);
-        board_close(&board);
-    }
-}
-
-/* ---- ownership -------------------------------------------------------------------------------------------------- */
-
-static bool row_is(const board_t *board, uint32_t row, uint8_t value) {
-    for (uint32_t x = 0; x < 240; x++) {
-        if (sim_dcs_memory(board->chip, x, row) != (value ? 0x3FFFF : 0u)) { return false; }
-    }
-    return true;
-}
-
-static void test_buffer_in_flight_is_not_ours(void **state) {
-    board_t board;
-    uint8_t a[480], b[480];
-
-    (void)state;
-    board_open(&board, NULL);
-    board_start(&board, 0, TUILE_WIRE_RGB565);
-    tuile_display_window(&board.display, 0, 0, 240, 3);
-    memset(a, 0xFF, sizeof a);
-    memset(b, 0xFF, sizeof b);
-    assert_int_equal(tuile_display_write(&board.display, a, sizeof a), 0);
-    memset(a, 0, sizeof a); /* too early: the simulator shows it */
-    assert_int_equal(tuile_display_write(&board.display, b, sizeof b), 0);
-    assert_true(row_is(&board, 0, 0));
-    memset(a, 0xFF, sizeof a); /* now it is ours again */
-    assert_int_equal(tuile_display_write(&board.display, a, sizeof a), 0);
-    memset(b, 0, sizeof b); /* b is out */
-    assert_int_equal(tuile_display_wait(&board.display), 0);
-    memset(a, 0, sizeof a); /* and a */
-    assert_true(row_is(&board, 1, 0xFF));
-    assert_true(row_is(&board, 2, 0xFF));
-    board_close(&board);
-}
-
-/* ---- time ------------------------------------------------------------------------------------------------------- */
-
-static void test_time_on_the_wire(void **state) {
-    static uint8_t frame[153600];
-    board_t board;
-    uint64_t before_ns;
-    tuile_display_config_t config = {.panel = &tuile_ili9341, .pixel_clock_hz = 62500000};
-
-    (void)state;
-    board_open(&board, &(sim_bus_config_t){.command_gap_ns = 1000, .chunk_gap_ns = 2000, .max_chunk_bytes = 4096});
-    config.bus = &board.bus.bus;
-    assert_int_equal(tuile_display_init(&board.display, &config), 0);
-    assert_int_equal(tuile_display_present(&board.display), 0); /* switches the panel on, which only the first frame does */
-    memset(&board.bus.counts, 0, sizeof board.bus.counts);
-    before_ns = board.bus.now_ns;
-    tuile_display_window(&board.display, 0, 0, 240, 320);
-    tuile_display_write(&board.display, frame, sizeof frame);
-    assert_int_equal(tuile_display_present(&board.display), 0);
-    assert_int_equal(board.bus.counts.commands, 3);
-    assert_int_equal(board.bus.counts.command_bytes, 11);
-    assert_int_equal(board.bus.counts.chunks, 38); /* 37 of 4096 and one of 2048 */
-    assert_int_equal(board.bus.counts.data_bytes, 153600);
-    /* 153600 * 8 bits * 16 ns; 11 * 8 bits * 100 ns */
-    assert_int_equal(board.bus.counts.wire_ns, 19660800 + 8800);
-    assert_int_equal(board.bus.counts.gap_ns, 3 * 1000 + 38 * 2000);
-    assert_int_equal(board.bus.now_ns - before_ns, 19660800 + 8800 + 79000);
-    assert_true(board.chip->warnings > 0); /* beyond the rated 10 MHz */
-    assert_non_null(strstr(board.chip->warning.text, "62500000 Hz"));
-    board_close(&board);
-}
-
-static void test_real_clock_differs_from_the_one_asked_for(void **state) {
-    static uint8_t row[480];
-    board_t board;
-
-    (void)state;
-    board_open(&board, &(sim_bus_config_t){.clock_hz = 15625000, .command_clock_hz = 9000000});
-    board_start(&board, 0, TUILE_WIRE_RGB565);
-    memset(&board.bus.counts, 0, sizeof board.bus.counts);
-    tuile_display_window(&board.display, 0, 0, 240, 1);
-    tuile_display_write(&board.display, row, sizeof row);
-    tuile_display_wait(&board.display);
-    /* 480 * 8 * 64 ns; 5, 5 and 1 bytes at 9 MHz: 4444.4, 4444.4 and 888.8 ns, each rounded up */
-    assert_int_equal(board.bus.counts.wire_ns, 245760 + 4445 + 4445 + 889);
-    board_close(&board);
-}
-
-static void test_work_overlaps_the_wire(void **state) {
-    static uint8_t strip[2][240 * 32 * 2]; /* 15 360 bytes: 12 288 000 ns at 10 MHz */
-    board_t board;
-    uint64_t before_ns;
-    tuile_display_config_t config = {.panel = &tuile_ili9341, .pixel_clock_hz = 10000000};
-
-    (void)state;
-    for (unsigned blocking = 0; blocking < 2; blocking++) {
-        board_open(&board, &(sim_bus_config_t){.blocking = blocking});
-        config.bus = &board.bus.bus;
-        assert_int_equal(tuile_display_init(&board.display, &config), 0);
-        assert_int_equal(board.chip->warnings, 0);
-        assert_int_equal(tuile_display_present(&board.display), 0);
-        memset(&board.bus.counts, 0, sizeof board.bus.counts);
-        before_ns = board.bus.now_ns;
-        for (uint32_t i = 0; i < 10; i++) {
-            sim_bus_work(&board.bus, 5000000);
-            tuile_display_window(&board.display, 0, 32 * i, 240, 32);
-            tuile_display_write(&board.display, strip[i & 1], sizeof strip[0]);
-        }
-        assert_int_equal(tuile_display_present(&board.display), 0);
-        /* With overlap only the first 5 ms of work are seen. */
-        assert_int_equal(board.bus.now_ns - before_ns, 10 * (12288000 + 8800) + (blocking ? 10 : 1) * 5000000);
-        assert_int_equal(board.bus.counts.work_ns, 50000000);
-        assert_int_equal(board.bus.counts.idle_ns, blocking ? 122880000 : 122880000 - 45000000);
-        board_close(&board);
-    }
-}
-
-/* ---- the frame loop --------------------------------------------------------------------------------------------- */
 
 /* A renderer of 10 tiles of 240 x 32, that fails where it is told to and looks at what the loop does. Its buffers are poisoned
  * before they are drawn anew: two of them, or one, as a real renderer has. */
@@ -256,6 +74,7 @@ static const char *fake_error_text(int error) { return error ? "renderer" : "no 
 #define tuile_stream_flow stream_flow_under_test
 #define tuile_stream_settle stream_settle_under_test
 #define tuile_stream_one_window stream_one_window_under_test
+#define tuile_stream_send stream_send_under_test
 #define next stream_next
 #define tuile_stream_error_text stream_error_text_under_test
 #define tuile_stream_format stream_format_under_test
@@ -615,12 +434,6 @@ static void test_error_texts(void **state) {
 
 int main(void) {
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fault_at_every_transfer),
-        cmocka_unit_test(test_gone_at_every_transfer),
-        cmocka_unit_test(test_buffer_in_flight_is_not_ours),
-        cmocka_unit_test(test_time_on_the_wire),
-        cmocka_unit_test(test_real_clock_differs_from_the_one_asked_for),
-        cmocka_unit_test(test_work_overlaps_the_wire),
         cmocka_unit_test(test_stream_frame),
         cmocka_unit_test(test_stream_sends_whole_frames_into_one_window),
         cmocka_unit_test(test_stream_begins_anew_after_a_frame_that_broke_off),
