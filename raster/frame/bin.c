@@ -82,8 +82,7 @@ static int bin_cluster(tuile_t *t, const uint8_t *bytes) {
     if (result != FRAME_OK) { return result == BIN_CULLED ? FRAME_OK : result; }
     result = face_bin_all(t, &cluster);
     if (t->record_count != binned) { return result; }
-    pass_give_up(t, t->vertex_count);
-    t->vertex_count = mark; /* none of its faces is left: nor need its vertices be */
+    pass_give_back(t, mark); /* none of its faces is left: nor need its vertices be */
     return result;
 }
 

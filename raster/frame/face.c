@@ -223,10 +223,7 @@ static TUILE_NOINLINE int bin_clipped(tuile_t *t, const frame_cluster_t *cluster
         result = bin_polygon(t, &ring, out, material, normal, id);
     }
     t->source = (uint16_t)source;
-    if (t->immediate || (result == FRAME_OK && t->record_count == binned)) {
-        pass_give_up(t, t->vertex_count);
-        t->vertex_count = mark;
-    }
+    if (t->immediate || (result == FRAME_OK && t->record_count == binned)) { pass_give_back(t, mark); }
     return result;
 }
 
@@ -287,10 +284,7 @@ static int bin_far_triangle(tuile_t *t, const frame_cluster_t *cluster, const ui
     }
     t->vertex_count += 3;
     const int result = bin_one_triangle(t, t->vertex_count - 3, 0, 1, 2, material, normal, id);
-    if (t->record_count == binned) {
-        pass_give_up(t, t->vertex_count);
-        t->vertex_count -= 3;
-    }
+    if (t->record_count == binned) { pass_give_back(t, t->vertex_count - 3); }
     return result;
 }
 

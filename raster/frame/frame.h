@@ -362,6 +362,12 @@ void pass_measure(tuile_t *t, size_t room_bytes);
 /* Before some of `slots` vertices are given up again: they count all the same. */
 void pass_give_up(tuile_t *t, uint32_t slots);
 
+/* Gives back the vertices from that one on. */
+TUILE_INLINE void pass_give_back(tuile_t *t, uint32_t vertices_left) {
+    pass_give_up(t, t->vertex_count);
+    t->vertex_count = vertices_left;
+}
+
 /* Keeps the same record: what has been asked for ends there. */
 void pass_reaches(tuile_t *t, const uint8_t *end);
 

@@ -78,8 +78,7 @@ static int draw_part(tuile_t *t, walk_t *walk, uint32_t k, uint32_t first, uint3
     if (!t->immediate && t->record_count == binned && end - first == model_u16(bytes + CLUSTER_AT_FACE_COUNT)) {
         /* None of its faces is left, and no other set has faces there. */
         if (t->vertex_count > mark) { t->cluster_slots[k] = CLUSTER_UNSEEN; }
-        pass_give_up(t, t->vertex_count);
-        t->vertex_count = mark;
+        pass_give_back(t, mark);
     }
     return result;
 }
