@@ -4,7 +4,7 @@
 #include "../assembly.h"
 #include "small_thumb.h"
 
-#if ASSEMBLY_THUMB
+#if ASSEMBLY_THUMB2
 
 #include "small_thumb_parts.h"
 

@@ -15,7 +15,7 @@
 #include "../assembly.h"
 #include "textured_thumb.h"
 
-#if ASSEMBLY_THUMB
+#if ASSEMBLY_THUMB2
 
 #include "thumb.h"
 

@@ -100,8 +100,8 @@ static TUILE_NOINLINE void bin_any(tuile_t *t, const frame_cluster_t *cluster, u
 
 bool face_bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
     if (!is_plain(t, cluster, count)) { return false; }
-    if (ASSEMBLY_THUMB && face_thumb(t, cluster, count)) { return true; }
-    if (ASSEMBLY_THUMB || t->config.method != TUILE_ZBUFFER || t->record_bytes != sizeof(record_t)) { /* there what is rare */
+    if (ASSEMBLY_FACES && face_thumb(t, cluster, count)) { return true; }
+    if (ASSEMBLY_FACES || t->config.method != TUILE_ZBUFFER || t->record_bytes != sizeof(record_t)) { /* there what is rare */
         bin_any(t, cluster, count);
     } else if (cluster->face_normals) {
         bin_flat(t, cluster, count);

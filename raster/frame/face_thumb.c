@@ -10,7 +10,7 @@
 
 #include "../assembly.h"
 
-#if ASSEMBLY_THUMB
+#if ASSEMBLY_THUMB2
 
 typedef struct face_pair {
     uint32_t first, second;

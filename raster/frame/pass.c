@@ -169,7 +169,7 @@ static int pass_begin(tuile_t *t, uint32_t row, uint32_t column) {
 
 /* ---- tiles ---- */
 
-#if ASSEMBLY_THUMB
+#if ASSEMBLY_THUMB2
 #define STORE "stmia %0!, {r2, r3, r4, r5, r6, r8, r9, r12}\n\t"
 #define STORES(text) \
     __asm__ volatile(text : "+r"(bytes) : "r"(a), "r"(b), "r"(c), "r"(d), "r"(e), "r"(f), "r"(g), "r"(h) : "memory")

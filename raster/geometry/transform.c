@@ -323,7 +323,7 @@ void transform_region(transform_t *transform, const transform_region_t *region) 
     transform->region_y = (int16_t)(16 * region->top - 7);
     transform->region_width = (uint16_t)(16 * (region->right - region->left + 1));
     transform->region_height = (uint16_t)(16 * (region->bottom - region->top + 1));
-    if (ASSEMBLY_THUMB) { vertex_thumb_make(transform); }
+    if (ASSEMBLY_VERTICES) { vertex_thumb_make(transform); }
     plane.t = wide_add(plane.t, low);
     plane_store(&transform->planes[PLANE_NEAR], &plane);
     plane = row_scale(&w, wide_make(-1, 0));

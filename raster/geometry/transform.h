@@ -84,7 +84,7 @@ typedef struct transform {
                                                 |components| <= 16512 */
     uint8_t light_count, ambient;            /* ambient >= LIGHT_MIN */
     bool two_sided;
-#if ASSEMBLY_THUMB_COULD
+#if ASSEMBLY_THUMB2_COULD
     transform_run_t run; /* made by transform_region; what differs by cluster, by the vertex stage */
 #endif
 } transform_t;

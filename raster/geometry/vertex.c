@@ -182,7 +182,7 @@ unsigned vertex_stage_region(transform_t *transform, const uint8_t *cluster, con
     if ((normals && !one_sided) || !octave_of_cluster(transform, &octave, cluster)) {
         return perspective_any(transform, positions, normals, count, out);
     }
-    if (ASSEMBLY_THUMB) { return vertex_thumb(transform, positions, normals, count, out, &octave); }
+    if (ASSEMBLY_VERTICES) { return vertex_thumb(transform, positions, normals, count, out, &octave); }
     return normals ? perspective(transform, positions, normals, count, out, octave, true, true)
                    : perspective(transform, positions, NULL, count, out, octave, false, true);
 }

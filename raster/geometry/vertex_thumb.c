@@ -11,7 +11,7 @@
 
 #include "../assembly.h"
 
-#if ASSEMBLY_THUMB
+#if ASSEMBLY_THUMB2
 
 #define AT_LIGHT 96
 #define GUARD_BEHIND_LIGHT 20

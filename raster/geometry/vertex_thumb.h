@@ -12,11 +12,11 @@ typedef struct vertex_octave {
     int32_t half;
 } vertex_octave_t;
 
-/* transform->run, of what the vertices of all clusters share; all else of the transform is there. ASSEMBLY_THUMB only. */
+/* transform->run, of what the vertices of all clusters share; all else of the transform is there. ASSEMBLY_VERTICES only. */
 void vertex_thumb_make(transform_t *transform);
 
 /* vertex_stage_region for count >= 1 vertices of a cluster that is in `octave`, in perspective, with no light but a one-sided one.
- * Writes transform->run alone. ASSEMBLY_THUMB only. */
+ * Writes transform->run alone. ASSEMBLY_VERTICES only. */
 unsigned vertex_thumb(transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out,
                       const vertex_octave_t *octave);
 

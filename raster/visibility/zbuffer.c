@@ -19,7 +19,7 @@ static void zbuffer_clear(tuile_t *t) {
 
 /* By kind, which is a constant. */
 TUILE_INLINE void smalls_of(tuile_t *t, walk_t *walk, uint32_t limit, small_kind_t kind) {
-    if (ASSEMBLY_THUMB) {
+    if (ASSEMBLY_SMALL) {
         smalls_thumb(t, walk, limit, kind);
     } else {
         smalls_draw(t, walk, limit, kind);

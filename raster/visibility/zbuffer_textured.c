@@ -13,7 +13,7 @@
 #include "smalls_textured.h"
 
 void smalls_textured(tuile_t *t, walk_t *walk, uint32_t limit) {
-    if (ASSEMBLY_THUMB && t->config.shade == TUILE_GOURAUD) {
+    if (ASSEMBLY_TEXTURED && t->config.shade == TUILE_GOURAUD) {
         smalls_textured_thumb(t, walk, limit);
     } else {
         smalls_draw(t, walk, limit, SMALL_TEXTURED);

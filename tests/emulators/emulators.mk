@@ -113,13 +113,14 @@ test-firmware-harness: $(LM3S)/frames.elf $(OBJ)/wire_trace $(FIRMWARE)/libcount
 test-firmware-input: $(TUILE) firmware-lm3s6965evb firmware-sifive_e $(BUILD)/need/avr $(BUILD)/need/emulators # that wrong input is told
 	@$(PYTHON) $(EMULATORS)/test_input.py $(BUILD)
 
-# $(call TWINS,NAME,SOURCES,WRAPPED)
-TWINS = @sh $(EMULATORS)/twins.sh $(FIRMWARE)/twins $(1) '$(2)' '$(3)' cortex-m3 cortex-m4 cortex-m33
+# $(call TWINS,NAME,SOURCES,WRAPPED,TARGETS)
+TWINS = @sh $(EMULATORS)/twins.sh $(FIRMWARE)/twins $(1) '$(2)' '$(3)' $(4)
+THUMB2 := cortex-m3 cortex-m4 cortex-m33
 test-firmware-twins: $(BUILD)/need/bench-targets # that assembly does to the byte what its C twin does
-	$(call TWINS,vertex,raster/geometry/vertex.c raster/geometry/vertex_thumb.c,vertex_thumb)
-	$(call TWINS,small,raster/visibility/zbuffer.c raster/fill/small_thumb.c raster/fill/small_thumb_flat.c,small_thumb_gouraud small_thumb_flat)
-	$(call TWINS,textured,raster/visibility/zbuffer_textured.c raster/fill/textured_thumb.c raster/fill/small_thumb.c raster/surface/textured.c,textured_thumb)
-	$(call TWINS,face,raster/frame/face_plain.c raster/frame/face_thumb.c,face_thumb)
+	$(call TWINS,vertex,raster/geometry/vertex.c raster/geometry/vertex_thumb.c,vertex_thumb,$(THUMB2))
+	$(call TWINS,small,raster/visibility/zbuffer.c raster/fill/small_thumb.c raster/fill/small_thumb_flat.c,small_thumb_gouraud small_thumb_flat,$(THUMB2))
+	$(call TWINS,textured,raster/visibility/zbuffer_textured.c raster/fill/textured_thumb.c raster/fill/small_thumb.c raster/surface/textured.c,textured_thumb,$(THUMB2))
+	$(call TWINS,face,raster/frame/face_plain.c raster/frame/face_thumb.c,face_thumb,$(THUMB2))
 
 test-firmware: test-firmware-checks test-firmware-harness test-firmware-input test-firmware-twins $(BOARDS:%=test-firmware-%) ## boards in emulators: frames equal to the simulator's, faults, sizes, stack
 
