@@ -62,6 +62,31 @@ TUILE_INLINE uint32_t divide_by_reciprocal(uint32_t n, uint32_t b, int32_t r) {
     return divide_settle(quotient, (int32_t)(n - quotient * b), (int32_t)b);
 }
 
+/* A divisor below 2^18 and its reciprocal, 2^-31 * (r + f / 2^31) but for 2^-44 of it. */
+typedef struct divide_area {
+    int32_t area, r, f;
+} divide_area_t;
+
+/* r = floor((2^31 - 1) / area): 2^31 = r * area + rest, and rest / area is rest * r / 2^31 but for rest / 2^31. */
+TUILE_INLINE divide_area_t divide_area_of(int32_t area, int32_t r) {
+    return (divide_area_t){area, r, (int32_t)(0x80000000u - (uint32_t)r * (uint32_t)area) * r}; /* rest <= area */
+}
+
+/* floor(n * 2^bits / area): |n| < 2^31 with bits 12, |n| < 2^18 with 28. n * f / 2^31 is cut where it is less than 2^17 or 2^5 off,
+ * so the quotient is 1 or 4 off, or not, before its rest, which is known modulo 2^32, puts it right. */
+TUILE_INLINE int64_t divide_scaled(int32_t n, unsigned bits, divide_area_t by) {
+    const int32_t more = bits == 12 ? (n >> 16) * (by.f >> 16) * 2 : (n * (by.f >> 18)) >> 13;
+    int64_t quotient = (fixed_mul_wide(n, by.r) + more) >> (31 - bits);
+    int32_t rest = (int32_t)(((uint32_t)n << bits) - (uint32_t)quotient * (uint32_t)by.area);
+    for (; rest < 0; rest += by.area) {
+        quotient--;
+    }
+    for (; rest >= by.area; rest -= by.area) {
+        quotient++;
+    }
+    return quotient;
+}
+
 /* floor(a / b), |a| < 2^46, 0 < b < 2^18, by 32-bit divisions: 14 bits of a at a time, so that remainders leave room for them. With
  * r above 0, divide_by_reciprocal. */
 TUILE_INLINE int64_t divide_floor46_by_words(int64_t a, int32_t b, int32_t r) {

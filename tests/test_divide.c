@@ -1,5 +1,6 @@
 /* Quotients by table (raster/divide.h): all arguments there are, against the machine's division. */
 #include "support/check.h"
+#include "support/random.h"
 
 #include "../raster/divide.h"
 
@@ -39,12 +40,32 @@ static void ones_are_divided_by_16_bits(void **state) {
     }
 }
 
+/* By what a floor is. */
+static void scaled_numbers_are_divided_by_areas_and_floored(void **state) {
+    random_source_t random = random_seed(0x5ca1ed);
+    (void)state;
+    for (int round = 0; round < CHECK_ROUNDS(2000000); round++) {
+        const unsigned bits = random_one_in(&random, 2) ? 12 : 28, size = bits == 12 ? 31 : 18;
+        const int32_t end = (int32_t)((1u << size) - 1);
+        const int32_t n = random_one_in(&random, 8)   ? end - (int32_t)(random_bits(&random) & 3)
+                          : random_one_in(&random, 8) ? (int32_t)(random_bits(&random) & 3) - end
+                                                      : (int32_t)random_any_size(&random, size);
+        const int32_t area = random_one_in(&random, 8)
+                                 ? (1 << 18) - 1 - (int32_t)(random_bits(&random) & 3)
+                                 : (int32_t)(random_bits(&random) % ((1u << random_between(&random, 1, 18)) - 1)) + 1;
+        const int64_t quotient = divide_scaled(n, bits, divide_area_of(area, INT32_MAX / area)),
+                      scaled = (int64_t)n * (INT64_C(1) << bits);
+        assert_true(quotient * area <= scaled && scaled < (quotient + 1) * area);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_table_is_that_of_its_comment),
         cmocka_unit_test(slopes_of_short_sides_are_as_near_as_sides_need),
         cmocka_unit_test(reciprocals_of_areas_are_floored),
         cmocka_unit_test(ones_are_divided_by_16_bits),
+        cmocka_unit_test(scaled_numbers_are_divided_by_areas_and_floored),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,6 +22,11 @@ TUILE_INLINE gradient_t gradient_exact(int32_t c1, int32_t c2, int32_t x1, int32
  * 1) / area). */
 TUILE_INLINE gradient_t gradient_exact_short(int32_t c1, int32_t c2, int32_t x1, int32_t y1, int32_t x2, int32_t y2, int32_t area,
                                              int32_t reciprocal, unsigned unit_bits) {
+    const uint32_t room = UINT32_C(1) << 21; /* |c| < 2^21: sums of products with sides stay below 2^31 */
+    if (FIXED_BY_HALVES && (unit_bits == 28 || (((uint32_t)c1 + room) | ((uint32_t)c2 + room)) < 2 * room)) {
+        const divide_area_t by = divide_area_of(area, reciprocal);
+        return (gradient_t){divide_scaled(c2 * y1 - c1 * y2, unit_bits, by), divide_scaled(c1 * x2 - c2 * x1, unit_bits, by)};
+    }
     const int64_t nx = fixed_mul_wide(c2, y1) - fixed_mul_wide(c1, y2); /* < 2^(46 - unit_bits) */
     const int64_t ny = fixed_mul_wide(c1, x2) - fixed_mul_wide(c2, x1);
     return (gradient_t){divide_floor46(fixed_shift_left64(nx, unit_bits), area, reciprocal),
