@@ -18,23 +18,90 @@
 
 #include "small_thumb_parts.h"
 
-void small_thumb_far(small_far_t *face, uint32_t gouraud) {
-    const small_corners_t corners = {0, 0, face->x1, face->y1, face->x2, face->y2};
-    const vertex_t v0 = {0, 0, face->depth};
-    const int32_t z0 = (int32_t)(face->depth >> 8), light0 = (int32_t)(face->depth & 0xff);
-    const triangle_gradients_t g =
-        small_gradients_exact(&corners, (int32_t)(face->depth_dx >> 8) - z0, (int32_t)(face->depth_dy >> 8) - z0,
-                              (int32_t)(face->depth_dx & 0xff) - light0, (int32_t)(face->depth_dy & 0xff) - light0, gouraud != 0);
-    face->depth = (uint32_t)small_at(g.depth, triangle_depth_of(&v0), (small_int_t)face->to_x, (small_int_t)face->to_y);
-    face->depth_dx = (uint32_t)g.depth.dx;
-    face->depth_dy = (uint32_t)g.depth.dy;
-    if (!gouraud) { return; }
-    face->light = (uint32_t)small_at(g.light, triangle_light_of(&v0), (small_int_t)face->to_x, (small_int_t)face->to_y);
-    face->light_dx = (uint32_t)g.light.dx;
-    face->light_dy = (uint32_t)g.light.dy;
+/* clang-format off */
+
+/* floor((N << 28) / r8), |N| < 2^18, to N and HIGH, as -1 - floor((-1 - N) / r8) where N is below 0: the upper 32 bits of what is
+ * divided, then what they leave with the lower 14. SIGN: any register. */
+#define QUOTIENT_OF_LIGHT(N, HIGH, SIGN) \
+    LINE("asr " SIGN ", " N ", #31") \
+    LINE("eor " N ", " SIGN ", " N ", lsl #14") \
+    LINE("udiv " HIGH ", " N ", r8") \
+    LINE("mls " N ", " HIGH ", r8, " N) \
+    LINE("lsl " N ", " N ", #14") \
+    LINE("orr " N ", " N ", " SIGN ", lsr #18") \
+    LINE("udiv " N ", " N ", r8") \
+    LINE("orr " N ", " N ", " HIGH ", lsl #14") \
+    LINE("lsr " HIGH ", " HIGH ", #18") \
+    LINE("eor " N ", " N ", " SIGN) \
+    LINE("eor " HIGH ", " HIGH ", " SIGN)
+
+/* The same of N and HIGH, below 2^34 in size, times 2^12. */
+#define QUOTIENT_OF_DEPTH(N, HIGH, SIGN, REST) \
+    LINE("asr " SIGN ", " HIGH ", #31") \
+    LINE("eor " N ", " N ", " SIGN) \
+    LINE("eor " HIGH ", " HIGH ", " SIGN) \
+    LINE("lsr " REST ", " N ", #2") \
+    LINE("orr " REST ", " REST ", " HIGH ", lsl #30") \
+    LINE("udiv " HIGH ", " REST ", r8") \
+    LINE("mls " REST ", " HIGH ", r8, " REST) \
+    LINE("lsl " REST ", " REST ", #14") \
+    LINE("bfi " REST ", " N ", #12, #2") \
+    LINE("orr " REST ", " REST ", " SIGN ", lsr #20") \
+    LINE("udiv " N ", " REST ", r8") \
+    LINE("orr " N ", " N ", " HIGH ", lsl #14") \
+    LINE("lsr " HIGH ", " HIGH ", #18") \
+    LINE("eor " N ", " N ", " SIGN) \
+    LINE("eor " HIGH ", " HIGH ", " SIGN)
+
+__attribute__((naked, noipa)) void small_thumb_far_light(void) {
+    __asm__ volatile(
+        LINE("push {r1, lr}")
+        LINE("subs r3, r3, r1")
+        LINE("sub r3, r3, r11, lsl #8")
+        LINE("subs r5, r5, r1")
+        LINE("sub r5, r5, r12, lsl #8")
+        LINE("mul r10, r5, r2")
+        LINE("mls r10, r3, r4, r10")
+        LINE("mul r3, r3, r7")
+        LINE("mls r3, r5, r6, r3")
+        QUOTIENT_OF_LIGHT("r10", "lr", "r1")
+        QUOTIENT_OF_LIGHT("r3", "r5", "r1")
+        LINE("ldr r1, [sp]")
+        LINE("mul lr, lr, r0")
+        LINE("mla lr, r5, r9, lr")
+        LINE("mov r5, #0x8000000")          /* half, times 16 */
+        LINE("umlal r5, lr, r10, r0")
+        LINE("umlal r5, lr, r3, r9")
+        LINE("lsrs r5, r5, #4")
+        LINE("orr r5, r5, lr, lsl #28")
+        LINE("add r5, r5, r1, lsl #24")
+        LINE("pop {r1, pc}"));
 }
 
-/* clang-format off */
+__attribute__((naked, noipa)) void small_thumb_far_depth(void) {
+    __asm__ volatile(
+        LINE("push {r1, r10, lr}")
+        LINE("smull r3, r1, r12, r2")
+        LINE("smull r10, lr, r11, r4")
+        LINE("subs r3, r3, r10")
+        LINE("sbc r1, r1, lr")
+        LINE("smull r5, lr, r11, r7")
+        LINE("smull r11, r10, r12, r6")
+        LINE("subs r5, r5, r11")
+        LINE("sbc lr, lr, r10")
+        QUOTIENT_OF_DEPTH("r3", "r1", "r10", "r11")
+        QUOTIENT_OF_DEPTH("r5", "lr", "r10", "r11")
+        LINE("mul r11, r1, r0")
+        LINE("mla r11, lr, r9, r11")
+        LINE("ldr r1, [sp]")
+        LINE("mov r12, #0x80000")           /* half, times 16 */
+        LINE("umlal r12, r11, r3, r0")
+        LINE("umlal r12, r11, r5, r9")
+        LINE("bic r1, r1, #0xff")
+        LINE("add r1, r1, r12, lsr #4")
+        LINE("add r1, r1, r11, lsl #28")
+        LINE("pop {r8, r10, pc}"));
+}
 
 #define RECORD LINE("sub r1, r1, r0, lsl #3")
 
@@ -138,14 +205,8 @@ __attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
 
     __asm__ volatile(
         ABOVE
-        LINE("71: add r0, sp, #KEPT + CORNERS")
-        LINE("str r9, [r0, #32]")
-        LINE("movs r1, #1")
-        LINE("bl small_thumb_far")
-        LINE("add r12, sp, #KEPT + CORNERS")
-        LINE("ldm r12, {r0-r7, r9, r10, lr}")
-        LINE("ldr r8, [sp, #KEPT + CORNERS + 44]")
-        LINE("strd r5, r8, [sp, #KEPT + DEPTH_DY]")
+        LINE("71:")
+        FAR_SHADE()
         LINE("b 14b")
 
         /* another material, or nothing is known of the face */

@@ -106,12 +106,9 @@ __attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
 
     __asm__ volatile(
         ABOVE
-        LINE("71: add r0, sp, #KEPT + CORNERS")
-        LINE("str r9, [r0, #32]")
-        LINE("movs r1, #0")
-        LINE("bl small_thumb_far")
-        LINE("add r12, sp, #KEPT + CORNERS")
-        LINE("ldm r12, {r0-r7, r9}")
+        LINE("71:")
+        FAR_AREA
+        LINE("bl small_thumb_far_depth")
         LINE("mov r10, r5")
         LINE("b 14b")
 

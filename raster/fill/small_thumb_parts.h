@@ -31,8 +31,8 @@
     LINE(".equ END, 100") \
     LINE(".equ MATERIAL, 104")   /* and left, width */ \
     LINE(".equ GIVEN, 116") \
-    LINE(".equ CORNERS, 120")    /* r0 ... r7 before sides are made; small_far_t */ \
-    LINE(".equ FRAME, 172") \
+    LINE(".equ CORNERS, 120")    /* r0 ... r7 before sides are made */ \
+    LINE(".equ FRAME, 156") \
     LINE(".equ KEPT, 24")        /* below that while gradients are made: the first row that is not empty */ \
     LINE(".equ RUN_LIST, 60")
 _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, material) == 44 && offsetof(small_run_t, place) == 60 &&

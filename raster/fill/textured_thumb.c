@@ -59,8 +59,7 @@
     LINE(".equ COUNT, 276") \
     LINE(".equ END, 280") \
     LINE(".equ KEPT, 0") \
-    LINE(".equ FAR, 284")         /* small_far_t */ \
-    LINE(".equ FRAME, 340") \
+    LINE(".equ FRAME, 284") \
     LINE(".equ FROM_CORNER, 0")       /* of a level */ \
     LINE(".equ ALWAYS, 4") \
     LINE(".equ UPPER, 8")             /* and pixels_up */ \
@@ -451,16 +450,8 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
     __asm__ volatile(
         ABOVE
 
-        LINE("71: add r12, sp, #FAR")
-        LINE("stm r12, {r0-r7, r9}")
-        LINE("mov r0, r12")
-        LINE("movs r1, #1")
-        LINE("bl small_thumb_far")
-        LINE("add r12, sp, #FAR")
-        LINE("ldm r12, {r0-r7, r9, r10, lr}")
-        LINE("add lr, lr, #0x2000000")      /* TEXTURED_BIAS */
-        LINE("ldr r8, [sp, #FAR + 44]")
-        LINE("strd r5, r8, [sp, #DEPTH_DY]")
+        LINE("71:")
+        FAR_SHADE(LINE("add lr, lr, #0x2000000")) /* TEXTURED_BIAS */
         LINE("b 14b")
 
         /* another level: the other one? Then they change places. */

@@ -10,24 +10,12 @@
 
 #include <stddef.h>
 
-/* A triangle whose depths are far apart, then its gradients: in the order of registers r0 ... r7, r9, r10, lr, and what rows keep
- * in memory. */
-typedef struct small_far {
-    uint32_t to_x;
-    uint32_t depth; /* in: depth_light of the first corner; out: at the first centre */
-    int32_t y1;
-    uint32_t depth_dx; /* in: depth_light of the second */
-    int32_t y2;
-    uint32_t depth_dy; /* in: of the third */
-    int32_t x1, x2;
-    uint32_t to_y;
-    uint32_t light_dx, light, light_dy;
-} small_far_t;
+/* Exact gradients, of triangles whose depths are far apart: one in six. They take registers as the macros below have them, r8 being
+ * the area, and give r10 light's dx, r3 its dy, r5 light at the first centre, unbiased; or r3 depth's dx, r5 its dy, r1 depth at
+ * the first centre. Of the others the latter leaves r8, r11 and r12 with no value. */
+void small_thumb_far_light(void);
+void small_thumb_far_depth(void);
 
-/* Makes them. gouraud: light's too. */
-void small_thumb_far(small_far_t *face, uint32_t gouraud);
-
-_Static_assert(sizeof(small_far_t) == 48 && offsetof(small_far_t, light_dy) == 44, "offsets in the assembly");
 _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && offsetof(record_t, d2) == 5 &&
                    offsetof(record_t, material) == 6 && sizeof(vertex_t) == 8 && TRIANGLE_SMALL_DEPTH == 1 << 17,
                "numbers in the assembly");
@@ -117,6 +105,18 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("bic r1, r1, #0xff") \
     LINE("add r1, r1, r12, lsr #4") \
     LINE("add r1, r1, r11, lsl #28")
+
+/* The same where depths are far apart. BIAS: of light. */
+#define FAR_AREA LINE("mul r8, r7, r2") LINE("mls r8, r6, r4, r8")
+#define FAR_SHADE(BIAS) \
+    FAR_AREA \
+    LINE("bl small_thumb_far_light") \
+    LINE("str r3, [sp, #KEPT + LIGHT_DY]") \
+    LINE("push {r5}") \
+    LINE("bl small_thumb_far_depth") \
+    LINE("pop {lr}") \
+    BIAS \
+    LINE("str r5, [sp, #KEPT + DEPTH_DY]")
 
 /* It begins above the tile: r9 is to_y. */
 #define ABOVE \
