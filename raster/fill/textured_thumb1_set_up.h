@@ -1,0 +1,363 @@
+/* Sides, the reciprocal of the area and gradients: parts of fill/textured_thumb1.c. */
+#ifndef TUILE_FILL_TEXTURED_THUMB1_SET_UP_H
+#define TUILE_FILL_TEXTURED_THUMB1_SET_UP_H
+
+#include "textured_thumb1_parts.h"
+
+/* clang-format off */
+
+/* To OUT a side's slope, by the table (divide_side_by_table). OUT may be Y, not X; r7 is free. */
+#define SLOPE(OUT, X, Y) \
+    LINE("lsls " OUT ", " Y ", #2") \
+    LINE("ldr r7, [sp, #TABLE]") \
+    LINE("ldr r7, [r7, " OUT "]") \
+    LINE("lsrs " OUT ", r7, #16") \
+    LINE("uxth r7, r7") \
+    LINE("muls " OUT ", " X ", " OUT) \
+    LINE("muls r7, " X ", r7") \
+    LINE("lsls " OUT ", " OUT ", #5") \
+    LINE("asrs r7, r7, #11") \
+    LINE("adds " OUT ", " OUT ", r7")
+
+/* The sides of a triangle whose mid corner is (XM, YM), its lowest one (XL, YL): r0 rows below the bend, r1 those above, or of the
+ * only part, r2, r3 left and right side in the first row, r4, r5 their slopes; r12 -rows. The side of the bend is BX, BS, the other
+ * one OX, OS. r1: to_y, r8: start. */
+#define EDGES(XM, YM, XL, YL, BX, BS, OX, OS) \
+    SLOPE("r0", XL, YL) \
+    LINE("mov r9, r0") \
+    LINE("muls r0, r1, r0") \
+    LINE("asrs r0, r0, #4") \
+    LINE("add r0, r8") \
+    LINE("mov r11, r0") \
+    LINE("subs r6, r1, " YL) \
+    LINE("asrs r6, r6, #4")                 /* -rows */ \
+    LINE("ldr r0, [sp, #ROWS_LEFT]") \
+    LINE("adds r0, r0, r6") \
+    LINE("bmi 20f") \
+    LINE("21: mov r12, r6") \
+    LINE("subs " YL ", " YL ", " YM) \
+    LINE("subs " XL ", " XL ", " XM) \
+    LINE("subs r0, r1, " YM) \
+    LINE("bpl 25f") \
+    LINE("asrs r7, r0, #4")                 /* -rows above the bend */ \
+    LINE("mov lr, r7") \
+    LINE("subs r7, r7, r6")                 /* rows below it */ \
+    LINE("ble 24f") \
+    LINE("mov r10, r7") \
+    LINE("lsls r0, r0, #28")                /* from the bend to the next centre */ \
+    LINE("lsrs r0, r0, #28") \
+    SLOPE("r6", XL, YL) \
+    LINE("muls r0, r6, r0") \
+    LINE("asrs r0, r0, #4") \
+    LINE("lsls r7, " XM ", #16") \
+    LINE("adds r0, r0, r7") \
+    LINE("add r0, r8") \
+    LINE("subs r0, r0, r6") \
+    LINE("str r0, [sp, #NEXT_X]") \
+    LINE("str r6, [sp, #NEXT_SLOPE]") \
+    LINE("23:") \
+    SLOPE(BS, XM, YM) \
+    LINE("muls r1, " BS ", r1") \
+    LINE("asrs r1, r1, #4") \
+    LINE("add r1, r8") \
+    LINE("movs " BX ", r1") \
+    LINE("mov " OX ", r11") \
+    LINE("mov " OS ", r9") \
+    LINE("mov r1, lr") \
+    LINE("mov r0, r10") \
+    LINE("b 26f") \
+    LINE("20: subs r6, r6, r0")             /* it reaches below the tile */ \
+    LINE("bl 29b") \
+    LINE("b 21b") \
+    LINE("24: mov lr, r6")                  /* no rows below the bend */ \
+    LINE("movs r6, #0") \
+    LINE("mov r10, r6") \
+    LINE("b 23b") \
+    LINE("25:")                             /* none above it: r0 from it to the first centre */ \
+    SLOPE("r6", XL, YL) \
+    LINE("muls r0, r6, r0") \
+    LINE("asrs r0, r0, #4") \
+    LINE("lsls r7, " XM ", #16") \
+    LINE("adds r0, r0, r7") \
+    LINE("add r0, r8") \
+    LINE("movs " BX ", r0") \
+    LINE("movs " BS ", r6") \
+    LINE("mov " OX ", r11") \
+    LINE("mov " OS ", r9") \
+    LINE("mov r1, r12") \
+    LINE("movs r0, #0") \
+    LINE("26: negs r1, r1") \
+    LINE("27: asrs r6, r2, #20") \
+    LINE("asrs r7, r3, #20") \
+    LINE("cmp r6, r7") \
+    LINE("blt 50f") \
+    LINE("adds r2, r2, r4")                 /* an empty row */ \
+    LINE("adds r3, r3, r5") \
+    LINE("subs r1, r1, #1") \
+    LINE("bne 27b") \
+    LINE("movs r1, r0") \
+    LINE("beq 28f") \
+    LINE("movs r0, #0") \
+    LINE("ldr " BX ", [sp, #NEXT_X]") \
+    LINE("ldr " BS ", [sp, #NEXT_SLOPE]") \
+    LINE("adds " BX ", " BX ", " BS) \
+    LINE("b 27b") \
+    LINE("28: b 10b") \
+    LINE("50: b 51f")
+
+
+/* To r4: reciprocal of the area (divide_area_by_table). */
+#define RECIPROCAL \
+    LINE("ldr r0, [sp, #AREA]") \
+    LINE("ldr r7, [sp, #TABLE]") \
+    LINE("lsrs r1, r0, #9") \
+    LINE("beq 60f") \
+    LINE("movs r2, #0") \
+    LINE("53: adds r2, #1") \
+    LINE("lsrs r1, r1, #1") \
+    LINE("bne 53b") \
+    LINE("movs r3, r0") \
+    LINE("lsrs r3, r2") \
+    LINE("lsls r3, r3, #2") \
+    LINE("ldr r3, [r7, r3]") \
+    LINE("lsrs r3, r3, #9") \
+    LINE("lsls r4, r3, #9") \
+    LINE("lsrs r4, r2") \
+    LINE("movs r5, r4") \
+    LINE("muls r5, r0, r5") \
+    LINE("mvns r6, r1")                 /* 2^31 - 1 */ \
+    LINE("lsrs r6, r6, #1") \
+    LINE("subs r6, r6, r5") \
+    LINE("asrs r5, r6, #8") \
+    LINE("muls r5, r3, r5") \
+    LINE("adds r2, #14") \
+    LINE("asrs r5, r2") \
+    LINE("adds r4, r4, r5") \
+    LINE("muls r5, r0, r5") \
+    LINE("subs r6, r6, r5") \
+    LINE("asrs r5, r6, #1") \
+    LINE("muls r5, r3, r5") \
+    LINE("adds r2, #7") \
+    LINE("asrs r5, r2") \
+    LINE("adds r4, r4, r5") \
+    LINE("muls r5, r0, r5") \
+    LINE("subs r6, r6, r5") \
+    LINE("b 55f") \
+    LINE("54: adds r4, #1") \
+    LINE("subs r6, r6, r0") \
+    LINE("55: cmp r6, r0") \
+    LINE("bge 54b") \
+    LINE("cmp r6, #0") \
+    LINE("bge 57f") \
+    LINE("56: subs r4, #1") \
+    LINE("adds r6, r6, r0") \
+    LINE("bmi 56b") \
+    LINE("b 57f") \
+    LINE("60: lsls r1, r0, #2")         /* below 512: the table's, less 1 for powers of two */ \
+    LINE("ldr r4, [r7, r1]") \
+    LINE("subs r1, r0, #1") \
+    LINE("ands r1, r0") \
+    LINE("bne 57f") \
+    LINE("subs r4, #1") \
+    LINE("57: str r4, [sp, #RECIPROCAL]")
+
+/* The product of a number of 28 bits and the reciprocal, whose halves are r1 and r2, over 2^19: it is NUMBER * 2^13 + LOW, NUMBER
+ * then being the product of the upper halves, LOW that of all others. |LOW| < 2^26, since the area is 8 at least. T is free. */
+#define DEPTH_PRODUCT(NUMBER, LOW, T) \
+    LINE("uxth " T ", " NUMBER) \
+    LINE("asrs " NUMBER ", " NUMBER ", #16") \
+    LINE("movs " LOW ", r2") \
+    LINE("muls " LOW ", " T ", " LOW) \
+    LINE("lsrs " LOW ", " LOW ", #16") \
+    LINE("muls " T ", r1, " T) \
+    LINE("adds " LOW ", " LOW ", " T) \
+    LINE("movs " T ", " NUMBER) \
+    LINE("muls " T ", r2, " T) \
+    LINE("adds " LOW ", " LOW ", " T) \
+    LINE("asrs " LOW ", " LOW ", #3") \
+    LINE("muls " NUMBER ", r1, " NUMBER)
+
+/* textured_step: NUMBER by the factor whose halves are r1, r2; T and U are free. Of a sum below 2^31 in size: halves of NUMBER are
+ * below 2^14 and 2^16, the factor is below 2^28. What is shifted out last rounds. */
+#define STEP(NUMBER, T, U) \
+    LINE("uxth " T ", " NUMBER) \
+    LINE("asrs " NUMBER ", " NUMBER ", #16") \
+    LINE("movs " U ", r2") \
+    LINE("muls " U ", " T ", " U) \
+    LINE("lsrs " U ", " U ", #16") \
+    LINE("muls " T ", r1, " T) \
+    LINE("adds " U ", " U ", " T) \
+    LINE("movs " T ", " NUMBER) \
+    LINE("muls " T ", r2, " T) \
+    LINE("adds " U ", " U ", " T) \
+    LINE("muls " NUMBER ", r1, " NUMBER) \
+    LINE("asrs " U ", " U ", #16") \
+    LINE("adcs " NUMBER ", " NUMBER ", " U)
+
+/* Two determinants of differences A, B over the corners in r2 ... r5: to RIGHT, and in place of A. */
+#define DETERMINANTS(RIGHT, A, B, T) \
+    LINE("movs " RIGHT ", " B) \
+    LINE("muls " RIGHT ", r3, " RIGHT) \
+    LINE("movs " T ", " A) \
+    LINE("muls " T ", r5, " T) \
+    LINE("subs " RIGHT ", " RIGHT ", " T) \
+    LINE("muls " A ", r4, " A) \
+    LINE("muls " B ", r2, " B) \
+    LINE("subs " A ", " A ", " B)
+
+/* Steps: r5 and r6 of s, right and down, r8 and r7 of t. */
+#define MAP_OF_FACE \
+    LINE("add r0, sp, #CORNERS") \
+    LINE("ldmia r0!, {r2-r7}")          /* and s1, s2 */ \
+    DETERMINANTS("r0", "r6", "r7", "r1") \
+    LINE("ldr r1, [sp, #LEVEL + UP]") \
+    LINE("lsls r0, r1") \
+    LINE("lsls r6, r1") \
+    LINE("mov r8, r0") \
+    LINE("mov r9, r6") \
+    LINE("ldr r6, [sp, #COORDINATES + 8]") \
+    LINE("ldr r7, [sp, #COORDINATES + 12]") \
+    DETERMINANTS("r0", "r6", "r7", "r1") \
+    LINE("ldr r1, [sp, #LEVEL + UP]") \
+    LINE("lsls r0, r1") \
+    LINE("lsls r6, r1") \
+    LINE("ldr r2, [sp, #RECIPROCAL]") \
+    LINE("ldr r1, [sp, #LEVEL + LEVEL_DOWN]") \
+    LINE("lsrs r2, r1") \
+    LINE("lsrs r1, r2, #16") \
+    LINE("uxth r2, r2") \
+    STEP("r0", "r3", "r4") \
+    STEP("r6", "r3", "r4") \
+    LINE("mov r5, r8") \
+    LINE("mov r7, r9") \
+    STEP("r5", "r3", "r4") \
+    STEP("r7", "r3", "r4") \
+    /* the map: r0 t right, r6 t down, r5 s right, r7 s down */ \
+    LINE("ldr r1, [sp, #TO_X]") \
+    LINE("ldr r2, [sp, #TO_Y]") \
+    LINE("movs r3, r5") \
+    LINE("muls r3, r1, r3") \
+    LINE("movs r4, r7") \
+    LINE("muls r4, r2, r4") \
+    LINE("adds r3, r3, r4") \
+    LINE("asrs r3, r3, #4") \
+    LINE("muls r1, r0, r1") \
+    LINE("muls r2, r6, r2") \
+    LINE("adds r1, r1, r2") \
+    LINE("asrs r1, r1, #4") \
+    LINE("mov r8, r3") \
+    LINE("mov r9, r1") \
+    LINE("ldr r4, [sp, #FIRST_COORDINATES]") \
+    LINE("sxth r3, r4") \
+    LINE("asrs r4, r4, #16") \
+    LINE("ldr r1, [sp, #S_INSIDE]") \
+    LINE("ands r3, r1") \
+    LINE("ldr r1, [sp, #LEVEL + FROM_CORNER]") \
+    LINE("lsls r3, r3, #8") \
+    LINE("asrs r3, r1") \
+    LINE("lsls r4, r4, #8") \
+    LINE("asrs r4, r1") \
+    LINE("add r3, r8") \
+    LINE("add r4, r9") \
+    LINE("ldr r1, [sp, #LEVEL + T_UNIT]") \
+    LINE("muls r0, r1, r0") \
+    LINE("muls r6, r1, r6") \
+    LINE("muls r4, r1, r4") \
+    LINE("ldr r1, [sp, #LEVEL + S_UNIT]") \
+    LINE("muls r5, r1, r5") \
+    LINE("muls r7, r1, r7") \
+    LINE("muls r3, r1, r3") \
+    LINE("adds r0, r0, r5") \
+    LINE("mov r11, r0") \
+    LINE("adds r6, r6, r7") \
+    LINE("str r6, [sp, #MAP_DY]") \
+    LINE("adds r3, r3, r4") \
+    LINE("ldr r1, [sp, #DOWN]") \
+    LINE("muls r6, r1, r6") \
+    LINE("adds r3, r3, r6") \
+    LINE("mov r10, r3")
+
+/* Depth, down in memory, right in r8, and at the first centre in r12. */
+#define DEPTH_OF_FACE \
+    DETERMINANTS("r0", "r6", "r7", "r1") \
+    LINE("ldr r2, [sp, #RECIPROCAL]") \
+    LINE("lsrs r1, r2, #16") \
+    LINE("uxth r2, r2") \
+    DEPTH_PRODUCT("r0", "r4", "r3") \
+    DEPTH_PRODUCT("r6", "r5", "r3") \
+    LINE("lsls r7, r0, #13") \
+    LINE("adds r7, r7, r4") \
+    LINE("mov r8, r7") \
+    LINE("lsls r7, r6, #13") \
+    LINE("adds r7, r7, r5") \
+    LINE("str r7, [sp, #DEPTH_DY]") \
+    LINE("ldr r1, [sp, #TO_X]") \
+    LINE("ldr r2, [sp, #TO_Y]") \
+    LINE("muls r0, r1, r0") \
+    LINE("muls r6, r2, r6") \
+    LINE("adds r0, r0, r6") \
+    LINE("lsls r0, r0, #9") \
+    LINE("muls r4, r1, r4") \
+    LINE("muls r5, r2, r5") \
+    LINE("adds r4, r4, r5") \
+    LINE("asrs r4, r4, #4") \
+    LINE("adds r0, r0, r4") \
+    LINE("ldr r3, [sp, #DEPTH_LIGHT]") \
+    LINE("lsrs r1, r3, #8") \
+    LINE("lsls r1, r1, #8") \
+    LINE("adds r0, r0, r1") \
+    LINE("ldr r1, [sp, #DEPTH_HALF]") \
+    LINE("adds r0, r0, r1") \
+    LINE("mov r12, r0")
+
+/* Light: right in r9, at the first centre in r3. A factor of 18 bits at most, by the lower 11 bits of the reciprocal and by the
+ * others: what comes of the lower ones is below 2^26, over 2^3. */
+#define LIGHT_OF_FACE \
+    LINE("uxtb r3, r3") \
+    LINE("add r0, sp, #LIGHTS + 4") \
+    LINE("ldmia r0!, {r6, r7}") \
+    LINE("uxtb r6, r6") \
+    LINE("subs r6, r6, r3") \
+    LINE("uxtb r7, r7") \
+    LINE("subs r7, r7, r3") \
+    LINE("mov r9, r3") \
+    LINE("add r0, sp, #CORNERS") \
+    LINE("ldmia r0!, {r2-r5}") \
+    DETERMINANTS("r0", "r6", "r7", "r1") \
+    LINE("ldr r1, [sp, #RECIPROCAL]") \
+    LINE("lsrs r2, r1, #11") \
+    LINE("lsls r1, r1, #21") \
+    LINE("lsrs r1, r1, #21") \
+    LINE("movs r3, r0") \
+    LINE("muls r3, r2, r3") \
+    LINE("muls r0, r1, r0") \
+    LINE("asrs r0, r0, #3") \
+    LINE("muls r2, r6, r2") \
+    LINE("muls r6, r1, r6") \
+    LINE("asrs r6, r6, #3") \
+    LINE("mov r1, r9") \
+    LINE("lsls r4, r3, #8") \
+    LINE("adds r4, r4, r0") \
+    LINE("mov r9, r4") \
+    LINE("lsls r5, r2, #8") \
+    LINE("adds r5, r5, r6") \
+    LINE("str r5, [sp, #LIGHT_DY]") \
+    LINE("ldr r7, [sp, #TO_Y]") \
+    LINE("muls r2, r7, r2") \
+    LINE("muls r6, r7, r6") \
+    LINE("ldr r7, [sp, #TO_X]") \
+    LINE("muls r3, r7, r3") \
+    LINE("muls r0, r7, r0") \
+    LINE("adds r3, r3, r2") \
+    LINE("lsls r3, r3, #4") \
+    LINE("adds r0, r0, r6") \
+    LINE("asrs r0, r0, #4") \
+    LINE("adds r3, r3, r0") \
+    LINE("lsls r1, r1, #24") \
+    LINE("adds r3, r3, r1") \
+    LINE("ldr r1, [sp, #LIGHT_HALF]") \
+    LINE("adds r3, r3, r1")
+
+/* clang-format on */
+
+#endif
