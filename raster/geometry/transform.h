@@ -30,13 +30,47 @@ typedef struct transform_plane {
     uint32_t length;
 } transform_plane_t;
 
-/* What the assembly of geometry/vertex_thumb.c reads, in this order. */
+/* What the assembly reads, in its order. */
+#if ASSEMBLY_THUMB1_COULD
+typedef struct transform_run_entry { /* high * 2^15 + low, |low| <= 2^14 */
+    int32_t low, high;
+} transform_run_entry_t;
+
+typedef struct transform_run_row {
+    transform_run_entry_t t, m[3];
+} transform_run_row_t;
+
+typedef struct transform_run_row_y {
+    transform_run_entry_t t, m[2];
+    const void *at_minus_y;
+    transform_run_entry_t last;
+} transform_run_row_y_t;
+
+typedef struct transform_run { /* geometry/vertex_thumb1.c */
+    const void *at_w;
+    int32_t light[3];
+    uintptr_t normals; /* of positions at address 0 */
+    transform_run_row_t x;
+    transform_run_row_y_t y;
+    transform_run_row_t w;
+    const void *at_x_row;
+    uint32_t normalise, one;
+    int32_t minus_y, at_x;
+    uint32_t shift, r;
+    int32_t minus_x;
+    uint32_t depth_shift;
+    const void *lights; /* or w, where there is none */
+    const void *position, *out, *end;
+    const void *region; /* where region_x of the transform is */
+    uint32_t any;
+} transform_run_t;
+#else
 typedef struct transform_run_row {
     int32_t m[3];
     uint32_t low, high; /* t * 2^16 */
 } transform_run_row_t;
 
-typedef struct transform_run {
+typedef struct transform_run { /* geometry/vertex_thumb.c */
     transform_run_row_t w;
     uint32_t zeros, ones; /* ones: UINT32_MAX */
     transform_run_row_t x, y;
@@ -51,6 +85,7 @@ typedef struct transform_run {
     int32_t guard_x, guard_y; /* of those that are beyond the region */
     uint32_t any;
 } transform_run_t;
+#endif
 
 enum { PLANE_NEAR, PLANE_FAR, PLANE_LEFT, PLANE_RIGHT, PLANE_TOP, PLANE_BOTTOM, PLANE_COUNT };
 
@@ -84,7 +119,7 @@ typedef struct transform {
                                                 |components| <= 16512 */
     uint8_t light_count, ambient;            /* ambient >= LIGHT_MIN */
     bool two_sided;
-#if ASSEMBLY_THUMB2_COULD
+#if ASSEMBLY_THUMB2_COULD || ASSEMBLY_THUMB1_COULD
     transform_run_t run; /* made by transform_region; what differs by cluster, by the vertex stage */
 #endif
 } transform_t;

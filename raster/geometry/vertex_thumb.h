@@ -1,4 +1,4 @@
-/* The vertices of most clusters, in assembly: vertex_thumb.c. */
+/* The vertices of most clusters, in assembly: vertex_thumb.c, vertex_thumb1.c. */
 #ifndef TUILE_GEOMETRY_VERTEX_THUMB_H
 #define TUILE_GEOMETRY_VERTEX_THUMB_H
 
