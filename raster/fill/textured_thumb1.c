@@ -56,27 +56,7 @@ static __attribute__((noinline, used)) void textured_thumb_far(textured_far_t *f
  * there, by the texels in r5. */
 #define ROWS(ENTRY, TEXEL) \
     UNIFIED \
-    LINE("30: ldr r5, [sp, #ROWS]") \
-    LINE("subs r5, r5, #1") \
-    LINE("beq 36f") \
-    LINE("str r5, [sp, #ROWS]") \
-    LINE("31: add r7, sp, #SIDES") \
-    LINE("ldmia r7!, {r2, r4, r5, r6}") \
-    LINE("adds r2, r2, r5") \
-    LINE("adds r4, r4, r6") \
-    LINE("str r2, [sp, #SIDES]") \
-    LINE("str r4, [sp, #SIDES + 4]") \
-    LINE("ldmia r7!, {r5, r6}") \
-    LINE("adds r1, r1, r5") \
-    LINE("adds r3, r3, r6") \
-    LINE("ldmia r7!, {r5, r6}") \
-    LINE("add r10, r5") \
-    LINE("adds r0, r0, r6") \
-    LINE("asrs r2, r2, #20") \
-    LINE("asrs r4, r4, #20") \
-    LINE("cmp r2, r4") \
-    LINE("bge 30b") \
-    LINE(ENTRY " ldr r6, [sp, #COLUMN]") \
+    LINE(ENTRY "32: ldr r6, [sp, #COLUMN]") \
     LINE("str r4, [sp, #COLUMN]") \
     LINE("subs r6, r2, r6") \
     LINE("lsls r5, r6, #1") \
@@ -129,6 +109,26 @@ static __attribute__((noinline, used)) void textured_thumb_far(textured_far_t *f
     LINE("adds r0, #2") \
     LINE("cmp r0, r12") \
     LINE("bne 33b") \
+    LINE("30: ldr r5, [sp, #ROWS]") \
+    LINE("subs r5, r5, #1") \
+    LINE("beq 36f") \
+    LINE("str r5, [sp, #ROWS]") \
+    LINE("31: add r7, sp, #SIDES") \
+    LINE("ldmia r7!, {r2, r4, r5, r6}") \
+    LINE("adds r2, r2, r5") \
+    LINE("adds r4, r4, r6") \
+    LINE("str r2, [sp, #SIDES]") \
+    LINE("str r4, [sp, #SIDES + 4]") \
+    LINE("ldmia r7!, {r5, r6}") \
+    LINE("adds r1, r1, r5") \
+    LINE("adds r3, r3, r6") \
+    LINE("ldmia r7!, {r5, r6}") \
+    LINE("add r10, r5") \
+    LINE("adds r0, r0, r6") \
+    LINE("asrs r2, r2, #20") \
+    LINE("asrs r4, r4, #20") \
+    LINE("cmp r2, r4") \
+    LINE("blt 32b") \
     LINE("b 30b") \
     LINE("36: ldr r5, [sp, #BELOW]") \
     LINE("movs r6, #0") \
@@ -406,7 +406,6 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
 
         DEPTH_OF_FACE
         LIGHT_OF_FACE
-        LINE("mov r1, r12")
         LINE("58: ldr r0, [sp, #DOWN]")
         LINE("cmp r0, #0")
         LINE("bne 72f")
@@ -432,22 +431,6 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("b 73f")
         LINE("62: b 74f")
 
-        LINE("71: add r0, sp, #TO_X")
-        LINE("ldr r1, [sp, #LIGHTS + 4]")
-        LINE("ldr r2, [sp, #LIGHTS + 8]")
-        LINE("str r1, [r0, #12]")
-        LINE("str r2, [r0, #16]")
-        LINE("bl textured_thumb_far")
-        LINE("add r0, sp, #DEPTH_LIGHT")
-        LINE("ldmia r0!, {r1, r2, r4}")
-        LINE("mov r8, r2")
-        LINE("str r4, [sp, #DEPTH_DY]")
-        LINE("add r0, sp, #COORDINATES")
-        LINE("ldmia r0!, {r3, r4, r5}")
-        LINE("mov r9, r4")
-        LINE("str r5, [sp, #LIGHT_DY]")
-        LINE("b 58b")
-
         /* r0 rows down */
         LINE("72: ldr r2, [sp, #DEPTH_DY]")
         LINE("muls r2, r0, r2")
@@ -455,9 +438,15 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("ldr r2, [sp, #LIGHT_DY]")
         LINE("muls r2, r0, r2")
         LINE("adds r3, r3, r2")
-        LINE("b 59b"));
+        LINE("ldr r2, [sp, #MAP_DY]")
+        LINE("muls r2, r0, r2")
+        LINE("add r10, r2")
+        LINE("b 59b")
 
-    __asm__ volatile(ROWS("73:", TEXEL_OF_PALETTE) ROWS("74:", TEXEL_OF_COLOURS));
+        LINE("71:")
+        FAR_FACE);
+
+    __asm__ volatile(ROWS("73: ", TEXEL_OF_PALETTE) ROWS("74: ", TEXEL_OF_COLOURS));
 }
 
 /* clang-format on */

@@ -63,7 +63,8 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE(".equ OFFSETS, 152")    /* of vertices, 4 bytes for each */ \
     LINE(".equ AREA, 164") \
     LINE(".equ RECIPROCAL, 168") \
-    LINE(".equ MAP, 172") \
+    LINE(".equ FRACTION, 172")   /* of the reciprocal, over 2^16 */ \
+    LINE(".equ KEPT, OFFSETS")   /* three words, where depths are far apart */ \
     LINE(".equ LIST, 176")       /* the face's record: number + 1, first word */ \
     LINE(".equ RUN, 184")        /* textured_run_t */ \
     LINE(".equ COUNT, 188") \

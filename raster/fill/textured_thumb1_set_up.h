@@ -233,20 +233,6 @@
     STEP("r5", "r3", "r4") \
     STEP("r7", "r3", "r4") \
     /* the map: r0 t right, r6 t down, r5 s right, r7 s down */ \
-    LINE("ldr r1, [sp, #TO_X]") \
-    LINE("ldr r2, [sp, #TO_Y]") \
-    LINE("movs r3, r5") \
-    LINE("muls r3, r1, r3") \
-    LINE("movs r4, r7") \
-    LINE("muls r4, r2, r4") \
-    LINE("adds r3, r3, r4") \
-    LINE("asrs r3, r3, #4") \
-    LINE("muls r1, r0, r1") \
-    LINE("muls r2, r6, r2") \
-    LINE("adds r1, r1, r2") \
-    LINE("asrs r1, r1, #4") \
-    LINE("mov r8, r3") \
-    LINE("mov r9, r1") \
     LINE("ldr r4, [sp, #FIRST_COORDINATES]") \
     LINE("sxth r3, r4") \
     LINE("asrs r4, r4, #16") \
@@ -257,8 +243,20 @@
     LINE("asrs r3, r1") \
     LINE("lsls r4, r4, #8") \
     LINE("asrs r4, r1") \
-    LINE("add r3, r8") \
-    LINE("add r4, r9") \
+    LINE("ldr r1, [sp, #TO_X]") \
+    LINE("muls r1, r5, r1") \
+    LINE("ldr r2, [sp, #TO_Y]") \
+    LINE("muls r2, r7, r2") \
+    LINE("adds r1, r1, r2") \
+    LINE("asrs r1, r1, #4") \
+    LINE("adds r3, r3, r1") \
+    LINE("ldr r1, [sp, #TO_X]") \
+    LINE("muls r1, r0, r1") \
+    LINE("ldr r2, [sp, #TO_Y]") \
+    LINE("muls r2, r6, r2") \
+    LINE("adds r1, r1, r2") \
+    LINE("asrs r1, r1, #4") \
+    LINE("adds r4, r4, r1") \
     LINE("ldr r1, [sp, #LEVEL + T_UNIT]") \
     LINE("muls r0, r1, r0") \
     LINE("muls r6, r1, r6") \
@@ -272,10 +270,47 @@
     LINE("adds r6, r6, r7") \
     LINE("str r6, [sp, #MAP_DY]") \
     LINE("adds r3, r3, r4") \
-    LINE("ldr r1, [sp, #DOWN]") \
-    LINE("muls r6, r1, r6") \
-    LINE("adds r3, r3, r6") \
     LINE("mov r10, r3")
+
+/* To r12 what depth is at the first corner, and r0. r3: depth and light there. */
+#define DEPTH_AT_CORNER \
+    LINE("ldr r3, [sp, #DEPTH_LIGHT]") \
+    LINE("lsrs r1, r3, #8") \
+    LINE("lsls r1, r1, #8") \
+    LINE("adds r0, r0, r1") \
+    LINE("ldr r1, [sp, #DEPTH_HALF]") \
+    LINE("adds r0, r0, r1") \
+    LINE("mov r12, r0")
+
+/* r6, r7: differences of light, r9 the first corner's, which is the lowest byte of r3. */
+#define LIGHT_DIFFERENCES \
+    LINE("uxtb r3, r3") \
+    LINE("add r0, sp, #LIGHTS + 4") \
+    LINE("ldmia r0!, {r6, r7}") \
+    LINE("uxtb r6, r6") \
+    LINE("subs r6, r6, r3") \
+    LINE("uxtb r7, r7") \
+    LINE("subs r7, r7, r3") \
+    LINE("mov r9, r3")
+
+/* r3 * 2^8 + r0, r2 * 2^8 + r6: dx and dy; r1 light at the first corner. To r3, and depth to r1. */
+#define LIGHT_AT_CENTRE \
+    LINE("ldr r7, [sp, #TO_Y]") \
+    LINE("muls r2, r7, r2") \
+    LINE("muls r6, r7, r6") \
+    LINE("ldr r7, [sp, #TO_X]") \
+    LINE("muls r3, r7, r3") \
+    LINE("muls r0, r7, r0") \
+    LINE("adds r3, r3, r2") \
+    LINE("lsls r3, r3, #4") \
+    LINE("adds r0, r0, r6") \
+    LINE("asrs r0, r0, #4") \
+    LINE("adds r3, r3, r0") \
+    LINE("lsls r1, r1, #24") \
+    LINE("adds r3, r3, r1") \
+    LINE("ldr r1, [sp, #LIGHT_HALF]") \
+    LINE("adds r3, r3, r1") \
+    LINE("mov r1, r12")
 
 /* Depth, down in memory, right in r8, and at the first centre in r12. */
 #define DEPTH_OF_FACE \
@@ -302,25 +337,12 @@
     LINE("adds r4, r4, r5") \
     LINE("asrs r4, r4, #4") \
     LINE("adds r0, r0, r4") \
-    LINE("ldr r3, [sp, #DEPTH_LIGHT]") \
-    LINE("lsrs r1, r3, #8") \
-    LINE("lsls r1, r1, #8") \
-    LINE("adds r0, r0, r1") \
-    LINE("ldr r1, [sp, #DEPTH_HALF]") \
-    LINE("adds r0, r0, r1") \
-    LINE("mov r12, r0")
+    DEPTH_AT_CORNER
 
 /* Light: right in r9, at the first centre in r3. A factor of 18 bits at most, by the lower 11 bits of the reciprocal and by the
  * others: what comes of the lower ones is below 2^26, over 2^3. */
 #define LIGHT_OF_FACE \
-    LINE("uxtb r3, r3") \
-    LINE("add r0, sp, #LIGHTS + 4") \
-    LINE("ldmia r0!, {r6, r7}") \
-    LINE("uxtb r6, r6") \
-    LINE("subs r6, r6, r3") \
-    LINE("uxtb r7, r7") \
-    LINE("subs r7, r7, r3") \
-    LINE("mov r9, r3") \
+    LIGHT_DIFFERENCES \
     LINE("add r0, sp, #CORNERS") \
     LINE("ldmia r0!, {r2-r5}") \
     DETERMINANTS("r0", "r6", "r7", "r1") \
@@ -342,21 +364,164 @@
     LINE("lsls r5, r2, #8") \
     LINE("adds r5, r5, r6") \
     LINE("str r5, [sp, #LIGHT_DY]") \
-    LINE("ldr r7, [sp, #TO_Y]") \
-    LINE("muls r2, r7, r2") \
-    LINE("muls r6, r7, r6") \
-    LINE("ldr r7, [sp, #TO_X]") \
-    LINE("muls r3, r7, r3") \
-    LINE("muls r0, r7, r0") \
-    LINE("adds r3, r3, r2") \
-    LINE("lsls r3, r3, #4") \
-    LINE("adds r0, r0, r6") \
-    LINE("asrs r0, r0, #4") \
-    LINE("adds r3, r3, r0") \
-    LINE("lsls r1, r1, #24") \
-    LINE("adds r3, r3, r1") \
-    LINE("ldr r1, [sp, #LIGHT_HALF]") \
-    LINE("adds r3, r3, r1")
+    LIGHT_AT_CENTRE
+
+/* Where depths are far apart gradients are exact, as divide_scaled has them: the reciprocal's fraction, of which the upper half or
+ * less is enough, brings the quotient close, and its rest, modulo 2^32, puts it right. With |depths| < 2^20 and an area of 16 at
+ * least sums stay below 2^31; others are left to C. Comes back by 58, as DEPTH_OF_FACE and LIGHT_OF_FACE do. r6, r7: depths. */
+#define FAR_FACE \
+    LINE("movs r0, #1") \
+    LINE("lsls r0, r0, #20") \
+    LINE("adds r1, r6, r0") \
+    LINE("adds r0, r7, r0") \
+    LINE("orrs r0, r1") \
+    LINE("lsrs r0, r0, #21") \
+    LINE("bne 62f") \
+    LINE("ldr r1, [sp, #AREA]") \
+    LINE("cmp r1, #16") \
+    LINE("bge 63f") \
+    LINE("62: b 77f") \
+    LINE("63:") \
+    LINE("ldr r4, [sp, #RECIPROCAL]") \
+    LINE("movs r0, r4") \
+    LINE("muls r0, r1, r0") \
+    LINE("movs r2, #1") \
+    LINE("lsls r2, r2, #31") \
+    LINE("subs r2, r2, r0") \
+    LINE("muls r2, r4, r2") \
+    LINE("lsrs r2, r2, #16") \
+    LINE("str r2, [sp, #FRACTION]") \
+    LINE("add r0, sp, #CORNERS") \
+    LINE("ldmia r0!, {r2-r5}") \
+    DETERMINANTS("r0", "r6", "r7", "r1") \
+    LINE("mov r9, r6") \
+    LINE("ldr r2, [sp, #RECIPROCAL]") \
+    LINE("lsrs r1, r2, #16") \
+    LINE("uxth r2, r2") \
+    LINE("bl 64f") \
+    LINE("mov r8, r7") \
+    LINE("mov r7, r9") \
+    LINE("mov r9, r0") \
+    LINE("str r4, [sp, #KEPT]") \
+    LINE("movs r0, r7") \
+    LINE("bl 64f") \
+    LINE("str r7, [sp, #DEPTH_DY]") \
+    LINE("ldr r1, [sp, #TO_X]")         /* LOW may be 28 bits here: by its lower 4, and the others */ \
+    LINE("ldr r2, [sp, #TO_Y]") \
+    LINE("lsls r3, r4, #28") \
+    LINE("lsrs r3, r3, #28") \
+    LINE("muls r3, r2, r3") \
+    LINE("asrs r4, r4, #4") \
+    LINE("muls r4, r2, r4") \
+    LINE("muls r0, r2, r0") \
+    LINE("ldr r5, [sp, #KEPT]") \
+    LINE("lsls r6, r5, #28") \
+    LINE("lsrs r6, r6, #28") \
+    LINE("muls r6, r1, r6") \
+    LINE("asrs r5, r5, #4") \
+    LINE("muls r5, r1, r5") \
+    LINE("mov r7, r9") \
+    LINE("muls r7, r1, r7") \
+    LINE("adds r0, r0, r7") \
+    LINE("lsls r0, r0, #9") \
+    LINE("adds r3, r3, r6") \
+    LINE("lsrs r3, r3, #4") \
+    LINE("adds r0, r0, r3") \
+    LINE("adds r0, r0, r4") \
+    LINE("adds r0, r0, r5") \
+    DEPTH_AT_CORNER \
+    /* light */ \
+    LIGHT_DIFFERENCES \
+    LINE("add r0, sp, #CORNERS") \
+    LINE("ldmia r0!, {r2-r5}") \
+    DETERMINANTS("r0", "r6", "r7", "r1") \
+    LINE("str r6, [sp, #KEPT]") \
+    LINE("ldr r1, [sp, #RECIPROCAL]") \
+    LINE("lsrs r2, r1, #11") \
+    LINE("lsls r1, r1, #21") \
+    LINE("lsrs r1, r1, #21") \
+    LINE("bl 65f") \
+    LINE("mov r3, r9") \
+    LINE("mov r9, r7") \
+    LINE("ldr r6, [sp, #KEPT]") \
+    LINE("add r5, sp, #KEPT") \
+    LINE("stmia r5!, {r0, r3, r4}") \
+    LINE("movs r0, r6") \
+    LINE("bl 65f") \
+    LINE("str r7, [sp, #LIGHT_DY]") \
+    LINE("movs r6, r4") \
+    LINE("movs r2, r0") \
+    LINE("ldr r3, [sp, #KEPT]") \
+    LINE("ldr r1, [sp, #KEPT + 4]") \
+    LINE("ldr r0, [sp, #KEPT + 8]") \
+    LIGHT_AT_CENTRE \
+    LINE("b 58b") \
+    /* r0: numerator of depth; r1, r2 halves of the reciprocal. r7: its gradient, r0 * 2^13 + r4. */ \
+    LINE("64: lsls r5, r0, #12") \
+    LINE("uxth r3, r0") \
+    LINE("asrs r0, r0, #16") \
+    LINE("movs r4, r2") \
+    LINE("muls r4, r3, r4") \
+    LINE("lsrs r4, r4, #16") \
+    LINE("muls r3, r1, r3") \
+    LINE("adds r4, r4, r3") \
+    LINE("movs r3, r0") \
+    LINE("muls r3, r2, r3") \
+    LINE("adds r4, r4, r3") \
+    LINE("ldr r3, [sp, #FRACTION]") \
+    LINE("muls r3, r0, r3") \
+    LINE("asrs r3, r3, #15") \
+    LINE("adds r4, r4, r3") \
+    LINE("asrs r4, r4, #3") \
+    LINE("muls r0, r1, r0") \
+    LINE("lsls r7, r0, #13") \
+    LINE("adds r7, r7, r4") \
+    LINE("66: ldr r3, [sp, #AREA]") \
+    LINE("movs r6, r7") \
+    LINE("muls r6, r3, r6") \
+    LINE("subs r5, r5, r6")             /* rest */ \
+    LINE("bmi 68f") \
+    LINE("67: cmp r5, r3") \
+    LINE("bge 69f") \
+    LINE("bx lr") \
+    LINE("68: subs r7, #1") \
+    LINE("subs r4, #1") \
+    LINE("adds r5, r5, r3") \
+    LINE("bmi 68b") \
+    LINE("bx lr") \
+    LINE("69: adds r7, #1") \
+    LINE("adds r4, #1") \
+    LINE("subs r5, r5, r3") \
+    LINE("b 67b") \
+    /* r0: numerator of light; r2, r1 the reciprocal without its lower 11 bits, and those. r7: its gradient, r0 * 2^8 + r4. */ \
+    LINE("65: lsls r5, r0, #28") \
+    LINE("movs r4, r0") \
+    LINE("muls r4, r1, r4") \
+    LINE("asrs r4, r4, #3") \
+    LINE("ldr r3, [sp, #FRACTION]") \
+    LINE("lsrs r3, r3, #2") \
+    LINE("muls r3, r0, r3") \
+    LINE("asrs r3, r3, #16") \
+    LINE("adds r4, r4, r3") \
+    LINE("muls r0, r2, r0") \
+    LINE("lsls r7, r0, #8") \
+    LINE("adds r7, r7, r4") \
+    LINE("b 66b") \
+    LINE("77: add r0, sp, #TO_X")       /* left to C */ \
+    LINE("ldr r1, [sp, #LIGHTS + 4]") \
+    LINE("ldr r2, [sp, #LIGHTS + 8]") \
+    LINE("str r1, [r0, #12]") \
+    LINE("str r2, [r0, #16]") \
+    LINE("bl textured_thumb_far") \
+    LINE("add r0, sp, #DEPTH_LIGHT") \
+    LINE("ldmia r0!, {r1, r2, r4}") \
+    LINE("mov r8, r2") \
+    LINE("str r4, [sp, #DEPTH_DY]") \
+    LINE("add r0, sp, #COORDINATES") \
+    LINE("ldmia r0!, {r3, r4, r5}") \
+    LINE("mov r9, r4") \
+    LINE("str r5, [sp, #LIGHT_DY]") \
+    LINE("b 58b")
 
 /* clang-format on */
 
