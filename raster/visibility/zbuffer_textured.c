@@ -10,11 +10,14 @@
 #include "zbuffer_textured.h"
 
 #include "../assembly.h"
+#include "smalls_sse2.h"
 #include "smalls_textured.h"
 
 void smalls_textured(tuile_t *t, walk_t *walk, uint32_t limit) {
     if (ASSEMBLY_TEXTURED && t->config.shade == TUILE_GOURAUD) {
         smalls_textured_thumb(t, walk, limit);
+    } else if (ASSEMBLY_SSE2 && t->config.shade == TUILE_GOURAUD) {
+        smalls_textured_sse2(t, walk, limit);
     } else {
         smalls_draw(t, walk, limit, SMALL_TEXTURED);
     }

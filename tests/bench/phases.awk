@@ -11,7 +11,7 @@ function phase(fn, file, line) {
     if (match(file, /\/[a-z_]*_thumb[a-z_0-9]*\.c$/) && file ~ /fill\//) return index(thumb, substr(file, RSTART) " " line ";") ? "span" : "setup"
     if (file ~ /geometry\/vertex(_thumb1?)?\.[ch]$/) return "vertex"
     if (file ~ /geometry\/(cull|transform|wide|vector|camera)\.[ch]$/) return "cull"
-    if (file ~ /fill\/(span\.h|textured\.[ch]|triangle\.c|polygon\.c|active\.[ch])$/ || file ~ /surface\/(surface|texel|texture_fetch|light|fog|fog_stage)\.[ch]$/ || file ~ /frame\/shade\.c$/ || file ~ /layer\//) return "span"
+    if (file ~ /fill\/(span\.h|textured\.[ch]|textured_rows_sse2\.h|triangle\.c|polygon\.c|active\.[ch])$/ || file ~ /surface\/(surface|texel|texture_fetch|light|fog|fog_stage)\.[ch]$/ || file ~ /frame\/shade\.c$/ || file ~ /layer\//) return "span"
     if (file ~ /resolve\//) return "resolve"
     if (file ~ /raster\//) return "setup"
     return "helpers"
