@@ -191,7 +191,7 @@ __attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
         LINE("bne 80f")
         CORNERS
         DIFFERENCES(NEAR_DIFFERENCES)
-        CENTRE
+        CENTRE(PUT_AWAY)
         BENDS_LEFT(RECORD, KEEP)
         BENDS_RIGHT(RECORD, KEEP)
 
@@ -216,7 +216,7 @@ __attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
         CORNERS
         DIFFERENCES(TRUE_DIFFERENCES)
         TESTS
-        LEAVE);
+        LEAVE());
 }
 
 /* clang-format on */

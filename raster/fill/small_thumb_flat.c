@@ -94,7 +94,7 @@ __attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
         LINE("str r6, [sp, #VALUE]")
         CORNERS
         DIFFERENCES(NEAR_DIFFERENCES)
-        CENTRE
+        CENTRE(PUT_AWAY)
         BENDS_LEFT(RECORD, KEEP)
         BENDS_RIGHT(RECORD, KEEP)
 
@@ -125,7 +125,7 @@ __attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
         CORNERS
         DIFFERENCES(TRUE_DIFFERENCES)
         TESTS
-        LEAVE);
+        LEAVE());
 }
 
 /* clang-format on */

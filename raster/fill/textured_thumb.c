@@ -9,6 +9,12 @@
  *
  * A texel is lit by one product for red and blue and one for green, which bfi puts between them. Green is the 6 bits at 0 there, so
  * that one number rounds both: its bit 5 is half a step of blue and of green, its bit 16 of red, above all of green.
+ *
+ * Sides come first, and nothing of the texture is asked for before some centre is covered. So a face that is left to C may have
+ * been put behind those that reach below: then it is taken away there.
+ *
+ * The map is made at the first centre that is covered, (x, y) sixteenths from the corner. There steps times x and y, modulo 2^32,
+ * come to what they do in whole numbers, since the face is less than 2^15 / 256 texels across, though either product may be larger.
  */
 #include "../tune.h"
 
@@ -21,59 +27,58 @@
 
 /* clang-format off */
 
-/* At the stack pointer, bytes. The side of the bend is the one that changes there. */
+/* At the stack pointer, bytes. */
 #define FRAME \
-    LINE(".equ BEND_SLOPE, 0")   /* of that side, and of the other */ \
-    LINE(".equ OTHER_SLOPE, 4") \
-    LINE(".equ STRIDE, 8")       /* bytes */ \
-    LINE(".equ ROW, 12")         /* what rows have in r8, r9, r11 and r12; behind it what pixels have there */ \
-    LINE(".equ COPY, 28")        /* of the run */ \
+    LINE(".equ LEFT_SLOPE, 0") \
+    LINE(".equ RIGHT_SLOPE, 4") \
+    LINE(".equ STRIDE, 8")            /* bytes */ \
+    LINE(".equ ROW, 12")              /* what rows have in r8, r9, r11 and r12; behind it what pixels have there */ \
+    LINE(".equ COPY, 28")             /* of the run, as far as its place */ \
     LINE(".equ PALETTE, COPY + 16") \
-    LINE(".equ LIMIT, COPY + 20") \
-    LINE(".equ ARENA, COPY + 24")     /* and bytes of a record */ \
+    LINE(".equ LIMIT, COPY + 20")     /* and end of the arena, bytes of a record */ \
+    LINE(".equ RECORD_BYTES, COPY + 28") \
     LINE(".equ SOURCE, COPY + 32")    /* and known */ \
     LINE(".equ VERTICES, COPY + 40")  /* and texcoords */ \
     LINE(".equ TOP, COPY + 48")       /* and height */ \
     LINE(".equ DEPTH, COPY + 56")     /* and stride */ \
-    LINE(".equ S_INSIDE, COPY + 64") \
-    LINE(".equ ACROSS, COPY + 68") \
-    LINE(".equ ONE, COPY + 72") \
-    LINE(".equ LOG2_ONE, COPY + 76") \
-    LINE(".equ LEVEL, COPY + 80") \
-    LINE(".equ LEFT, COPY + 120")     /* and width */ \
-    LINE(".equ OTHER, COPY + 128")    /* and mask, texels */ \
-    LINE(".equ RUN_LIST, 176") \
-    LINE(".equ DEPTH_DY, 204") \
-    LINE(".equ LIGHT_DY, 208") \
-    LINE(".equ MAP_DY, 212") \
-    LINE(".equ FIRST, 216")       /* address of depth in the face's first row and column */ \
-    LINE(".equ ROWS_LEFT, 220")   /* of the tile, from that row on */ \
-    LINE(".equ START, 224")       /* small_start(0) */ \
-    LINE(".equ NEXT_X, 228")      /* the side below the bend, a row before its first, and its slope */ \
-    LINE(".equ MAP, 236")         /* at the first centre, and its dx */ \
-    LINE(".equ TO_X, 244")        /* and to_y */ \
-    LINE(".equ CORNER, 252")      /* s and t of the first corner, then in 1/256 texel */ \
-    LINE(".equ DEPTH_LIGHT, 260") /* of the first corner */ \
-    LINE(".equ LIST, 264")        /* the face's record: number + 1, first word */ \
-    LINE(".equ RUN, 272")         /* textured_run_t */ \
-    LINE(".equ COUNT, 276") \
-    LINE(".equ END, 280") \
-    LINE(".equ KEPT, 0") \
-    LINE(".equ FRAME, 284") \
-    LINE(".equ FROM_CORNER, 0")       /* of a level */ \
-    LINE(".equ ALWAYS, 4") \
-    LINE(".equ UPPER, 8")             /* and pixels_up */ \
-    LINE(".equ LOWER, 16") \
-    LINE(".equ UP, 20")               /* and down */ \
-    LINE(".equ T_UNIT, 28") \
-    LINE(".equ S_UNIT, 32")
+    LINE(".equ ACROSS, COPY + 64")    /* and one */ \
+    LINE(".equ LOG2_ONE, COPY + 72") \
+    LINE(".equ PIXELS_UP, COPY + 76") /* and what else a level has, in its order, and s_inside */ \
+    LINE(".equ LOWER, COPY + 84") \
+    LINE(".equ UP, COPY + 92") \
+    LINE(".equ T_UNIT, COPY + 100") \
+    LINE(".equ FROM_CORNER, COPY + 108") \
+    LINE(".equ INSTANCE, COPY + 116") /* and model's texcoords */ \
+    LINE(".equ LEFT, COPY + 124")     /* and width */ \
+    LINE(".equ RUN_LIST, 132") \
+    LINE(".equ LEVELS, 144")          /* behind it */ \
+    LINE(".equ DEPTH_DY, 160") \
+    LINE(".equ LIGHT_DY, 164") \
+    LINE(".equ MAP_DY, 168") \
+    LINE(".equ START, 172")           /* small_start(0) */ \
+    LINE(".equ NEXT_X, 176")          /* the side below the bend, a row before its first, and its slope */ \
+    LINE(".equ MAP, 184")             /* at the first pixel, and its dx */ \
+    LINE(".equ CORNERS, 192")         /* r0 ... r7 before sides are made, and s|t of three corners */ \
+    LINE(".equ FIRST_ST, 232")        /* the last of them is that of the first corner */ \
+    LINE(".equ LIST, 236")            /* the face's record: number + 1, first word */ \
+    LINE(".equ RUN, 244")             /* textured_run_t */ \
+    LINE(".equ COUNT, 248") \
+    LINE(".equ END, 252") \
+    LINE(".equ END_BEFORE, 256")      /* the last face went behind it */ \
+    LINE(".equ MATCH, 260")           /* the source if faces are known to be short and inside; else -1 */ \
+    LINE(".equ DRAW, 264")            /* ROWS of textures with a palette, or without */ \
+    LINE(".equ FRAME, 268") \
+    LINE(".equ KEPT, 24")             /* below that while gradients are made: the first row that is not empty */
 _Static_assert(offsetof(textured_run_t, palette) == 16 && offsetof(textured_run_t, source) == 32 &&
-                   offsetof(textured_run_t, s_inside) == 64 && offsetof(textured_run_t, level) == 80 &&
-                   offsetof(textured_run_t, left) == 120 && offsetof(textured_run_t, other) == 128 &&
-                   offsetof(textured_run_t, place) == 176 && sizeof(textured_run_level_t) == 40 &&
-                   offsetof(textured_run_level_t, lower) == 16 && offsetof(textured_run_level_t, s_unit) == 32,
+                   offsetof(textured_run_t, across) == 64 && offsetof(textured_run_t, pixels_up) == 76 &&
+                   offsetof(textured_run_t, s_inside) == 112 && offsetof(textured_run_t, instance) == 116 &&
+                   offsetof(textured_run_t, left) == 124 && offsetof(textured_run_t, place) == 132 &&
+                   offsetof(textured_run_t, levels) == 144 && sizeof(textured_run_level_t) == 40 &&
+                   offsetof(textured_run_level_t, lower) == 4 && offsetof(textured_run_level_t, from_corner) == 28,
                "offsets in the assembly");
-_Static_assert(offsetof(record_surface_t, source) == 8 && TEXTURED_FRACTION == 8 && TEXTURED_BIAS == 1 << 25,
+_Static_assert(offsetof(record_surface_t, source) == 8 && sizeof(source_slot_t) == 2 * sizeof(vertex_t) &&
+                   offsetof(source_slot_t, instance) == 4 && offsetof(source_slot_t, colours) == 6 &&
+                   offsetof(source_slot_t, attributes) == 8 && TEXTURED_FRACTION == 8 && TEXTURED_BIAS == 1 << 25,
                "numbers in the assembly");
 
 /* r4: second word of the record; r3: its first word; r1: vertices; lr: texcoords. To r0 x|y, r1 depth and light ... of three
@@ -87,80 +92,146 @@ _Static_assert(offsetof(record_surface_t, source) == 8 && TEXTURED_FRACTION == 8
     LINE("add r9, r8, r7, asr #21") \
     LINE("add r11, lr, r7, asr #22") \
     LINE("sbfx r10, r4, #8, #8") \
-    LINE("add r12, lr, r10, lsl #2") \
+    LINE("ldr r12, [lr, r10, lsl #2]") \
     LINE("add r10, r8, r10, lsl #3") \
     LINE("ldr lr, [lr]") \
     LINE("ldr r11, [r11]") \
-    LINE("ldr r12, [r12]") \
     LINE("ldrd r0, r1, [r8]") \
     LINE("ldrd r2, r3, [r9]") \
     LINE("ldrd r4, r5, [r10]")
 
-/* The edges of a triangle, its mid corner being (XM, YM), on the side of the bend, its lowest one (XL, YL); r0 start, r9 to_y, r8
- * rows left of the tile. Then the rows. r1 depth, r3 its dx, lr light, r10 its dx, r8 rows, r9 the bend's side, r11 the other one. */
-#define EDGES(XM, YM, XL, YL, ROWS) \
-    LINE("lsls r5, " XL ", #20") \
-    LINE("sdiv r5, r5, " YL) \
-    LINE("mul r11, r5, r9") \
-    LINE("add r11, r0, r11, asr #4") \
-    LINE("sub r12, r9, " YL) \
-    LINE("asr r12, r12, #4")                /* -rows */ \
-    LINE("adds r8, r8, r12") \
-    LINE("bmi 20f") \
-    LINE("21: subs " YL ", " YL ", " YM) \
-    LINE("subs " XL ", " XL ", " XM) \
-    LINE("subs r8, r9, " YM) \
-    LINE("bpl 25f") \
-    LINE("lsls " XM ", " XM ", #20") \
-    LINE("sdiv " YM ", " XM ", " YM) \
-    LINE("mul r9, " YM ", r9") \
-    LINE("add r9, r0, r9, asr #4") \
-    LINE("strd " YM ", r5, [sp, #BEND_SLOPE]") \
-    LINE("and r5, r8, #15")                 /* from the bend to the next centre */ \
-    LINE("asr r8, r8, #4")                  /* -rows above the bend */ \
-    LINE("subs r12, r8, r12")               /* rows below it */ \
-    LINE("ble 24f") \
-    LINE("add r0, r0, " XM ", asr #4") \
-    LINE("lsls " XL ", " XL ", #20") \
-    LINE("sdiv " XL ", " XL ", " YL) \
-    LINE("mul r5, r5, " XL) \
-    LINE("add r5, r0, r5, asr #4") \
-    LINE("subs r5, r5, " XL) \
-    LINE("strd r5, " XL ", [sp, #NEXT_X]") \
-    LINE("add r8, r12, r8, lsl #16") \
-    LINE("22: ldr r0, [sp, #FIRST]") \
-    LINE("ldrd r6, r7, [sp, #MAP]") \
-    LINE("mov r12, #0") \
-    LINE("b " ROWS) \
-    LINE("24: subs r8, r8, r12")            /* none */ \
-    LINE("lsls r8, r8, #16") \
-    LINE("b 22b") \
-    LINE("25: lsls " XL ", " XL ", #20")    /* no rows above the bend: r8 from it to the first centre */ \
-    LINE("sdiv " XL ", " XL ", " YL) \
-    LINE("mul r8, r8, " XL) \
-    LINE("add r0, r0, " XM ", lsl #16") \
-    LINE("add r9, r0, r8, asr #4") \
-    LINE("strd " XL ", r5, [sp, #BEND_SLOPE]") \
-    LINE("lsl r8, r12, #16") \
-    LINE("b 22b") \
-    LINE("20: sub r12, r12, r8")            /* it reaches below the tile */ \
-    LINE("push {r0, r1, r2, r3}") \
-    LINE("ldr r0, [sp, #16 + LIST]") \
-    LINE("ldrd r1, r3, [sp, #16 + ARENA]") \
-    LINE("ldr r2, [sp, #16 + END]") \
-    LINE("mls r1, r0, r3, r1") \
-    LINE("movs r3, #0") \
-    LINE("strh r0, [r2]") \
-    LINE("strh r3, [r1]")                   /* its next */ \
-    LINE("str r1, [sp, #16 + END]") \
-    LINE("pop {r0, r1, r2, r3}") \
-    LINE("b 21b")
+#define PUT_AWAY LINE("str r0, [sp, #CORNERS]")
+#define RECORD LINE("ldr r3, [sp, #16 + RECORD_BYTES]") LINE("str r2, [sp, #16 + END_BEFORE]") LINE("mls r1, r0, r3, r1")
 
-/* LEFT, RIGHT: sides. r8 is -rows * 2^16, with the rows below the bend added. r12: the column that r0, r1, lr and r6 are of. TEXEL:
- * from an index in r2 to a colour there. */
-#define ROWS(ENTRY, LEFT, RIGHT, TEXEL) \
+/* r3 left side, r11 right one. A bit in r8 tells which of them has the bend. */
+#define KEEP_LEFT LINE("strd lr, r5, [sp, #LEFT_SLOPE]") LINE("push {r0, r2, r3, r8, r11, r12}")
+#define KEEP_RIGHT \
+    LINE("strd r5, lr, [sp, #LEFT_SLOPE]") LINE("orr r8, r8, #0x8000") LINE("push {r0, r2, r3, r8, r11, r12}")
+
+/* To s1 in r5, t1 r11, s2 lr, t2 r12; r8 area; r0 texels and r1 pixels, of the level? Is the face near enough, and affine? */
+#define ASKED \
+    LINE("15: add lr, sp, #KEPT + CORNERS + 4") \
+    LINE("ldm lr, {r1-r7, r11, r12, lr}") \
+    LINE("lsr r8, r1, #8") \
+    LINE("rsb r3, r8, r3, lsr #8") \
+    LINE("rsb r5, r8, r5, lsr #8") \
+    LINE("eor r3, r3, r3, asr #31") \
+    LINE("eor r5, r5, r5, asr #31") \
+    LINE("adds r3, r3, r5") \
+    LINE("lsrs r3, r3, #8") \
+    LINE("sxth r10, lr") \
+    LINE("asr r8, lr, #16") \
+    LINE("sxth r5, r11") \
+    LINE("sub r5, r5, r10") \
+    LINE("rsb r11, r8, r11, asr #16") \
+    LINE("sxth lr, r12") \
+    LINE("sub lr, lr, r10") \
+    LINE("rsb r12, r8, r12, asr #16") \
+    LINE("eor r8, r5, r5, asr #31") \
+    LINE("eor r10, r11, r11, asr #31") \
+    LINE("add r8, r8, r10") \
+    LINE("eor r10, lr, lr, asr #31") \
+    LINE("add r8, r8, r10") \
+    LINE("eor r10, r12, r12, asr #31") \
+    LINE("add r8, r8, r10") \
+    LINE("ldrd r0, r10, [sp, #KEPT + ACROSS]") \
+    LINE("cmp r8, r0") \
+    LINE("bhs 92f") \
+    LINE("add r8, r8, r10") \
+    LINE("mla r3, r3, r8, r8") \
+    LINE("ldr r0, [sp, #KEPT + LOG2_ONE]") \
+    LINE("lsrs r1, r1, #16") \
+    LINE("lsls r1, r0") \
+    LINE("cmp r3, r1") \
+    LINE("bhi 92f") \
+    LINE("mul r8, r7, r2") \
+    LINE("mls r8, r6, r4, r8") \
+    LINE("cmp r8, #8") \
+    LINE("blo 92f") \
+    LINE("mul r0, r5, r12") \
+    LINE("mls r0, lr, r11, r0") \
+    LINE("eor r0, r0, r0, asr #31") \
+    LINE("ldrd r1, r3, [sp, #KEPT + PIXELS_UP]") \
+    LINE("lsl r1, r8, r1") \
+    LINE("lsr r3, r0, r3") \
+    LINE("cmp r3, r1") \
+    LINE("bhi 91f") \
+    LINE("ldrd r3, r10, [sp, #KEPT + LOWER]") \
+    LINE("lsr r3, r0, r3") \
+    LINE("orr r3, r3, r10") \
+    LINE("cmp r3, r1") \
+    LINE("bls 91f")
+
+/* r8: the reciprocal of the area. Steps: r0 and r5 of s, right and down, lr and r11 of t. The first corner, 1/256 texel: r10 s,
+ * r12 t. Then the map. */
+#define MAPPED \
+    LINE("16: mvn r0, #0x80000000") \
+    LINE("udiv r8, r0, r8") \
+    LINE("ldrd r0, r1, [sp, #KEPT + UP]") \
+    LINE("asr r3, r8, r1") \
+    LINE("lsls r5, r0") \
+    LINE("lsl r11, r11, r0") \
+    LINE("lsl lr, lr, r0") \
+    LINE("lsl r12, r12, r0") \
+    LINE("mul r0, lr, r2") \
+    LINE("mls r0, r5, r4, r0") \
+    LINE("mul r5, r5, r7") \
+    LINE("mls r5, lr, r6, r5") \
+    LINE("mul lr, r12, r2") \
+    LINE("mls lr, r11, r4, lr") \
+    LINE("mul r11, r11, r7") \
+    LINE("mls r11, r12, r6, r11") \
+    LINE("smull r1, r0, r0, r3") \
+    LINE("add r0, r0, r1, lsr #31") \
+    LINE("smull r1, r5, r5, r3") \
+    LINE("add r5, r5, r1, lsr #31") \
+    LINE("smull r1, lr, lr, r3") \
+    LINE("add lr, lr, r1, lsr #31") \
+    LINE("smull r1, r11, r11, r3") \
+    LINE("add r11, r11, r1, lsr #31") \
+    LINE("ldr r1, [sp, #KEPT + FIRST_ST]") \
+    LINE("ldrd r3, r12, [sp, #KEPT + FROM_CORNER]") \
+    LINE("sxth r10, r1") \
+    LINE("and r10, r10, r12") \
+    LINE("lsl r10, r10, #8") \
+    LINE("asr r10, r10, r3") \
+    LINE("asr r12, r1, #16") \
+    LINE("lsl r12, r12, #8") \
+    LINE("asr r12, r12, r3") \
+    LINE("ldr r1, [sp, #4]")                /* column */ \
+    LINE("ldr r3, [sp, #KEPT + CORNERS]")   /* to_x */ \
+    LINE("add r1, r3, r1, lsl #4") \
+    LINE("mul r3, r0, r1") \
+    LINE("mla r3, r5, r9, r3") \
+    LINE("add r10, r10, r3, asr #4") \
+    LINE("mul r3, lr, r1") \
+    LINE("mla r3, r11, r9, r3") \
+    LINE("add r12, r12, r3, asr #4") \
+    LINE("ldrd r1, r3, [sp, #KEPT + T_UNIT]") \
+    LINE("mul r12, r12, r1") \
+    LINE("mla r12, r10, r3, r12") \
+    LINE("mul lr, lr, r1") \
+    LINE("mla lr, r0, r3, lr") \
+    LINE("mul r11, r11, r1") \
+    LINE("mla r11, r5, r3, r11") \
+    LINE("strd r12, lr, [sp, #KEPT + MAP]") \
+    LINE("str r11, [sp, #KEPT + MAP_DY]")
+
+/* From the first row on: r0 address, r2 first column, r8 left side, r9 -rows * 2^16, with the bit of KEEP, r11 right side. r1 and lr
+ * are at column 0 until they are moved. */
+#define FIRST \
+    LINE("14: pop {r0, r2, r8, r9, r11, r12}") \
+    LINE("ldrd r6, r7, [sp, #MAP]") \
+    LINE("asr r12, r11, #20") \
+    LINE("subs r5, r12, r2") \
+    LINE("mla r1, r3, r2, r1") \
+    LINE("mla lr, r10, r2, lr") \
+    LINE("ldr pc, [sp, #DRAW]")
+
+/* r12: the column that r0, r1, lr and r6 are of, behind the row's last. TEXEL: from an index in r2 to a colour there. */
+#define ROWS(ENTRY, TEXEL) \
     LINE("30: ldm sp, {r2, r4, r5}") \
-    LINE("31: add r9, r9, r2") \
+    LINE("31: add r8, r8, r2") \
     LINE("add r11, r11, r4") \
     LINE("adds r0, r0, r5") \
     LINE("add r5, sp, #DEPTH_DY") \
@@ -168,17 +239,17 @@ _Static_assert(offsetof(record_surface_t, source) == 8 && TEXTURED_FRACTION == 8
     LINE("add r1, r1, r2") \
     LINE("add lr, lr, r4") \
     LINE("adds r6, r6, r5") \
-    LINE(ENTRY " asr r2, " LEFT ", #20") \
-    LINE("cmp r2, " RIGHT ", asr #20") \
+    LINE("asr r2, r8, #20") \
+    LINE("cmp r2, r11, asr #20") \
     LINE("bge 35f") \
     LINE("sub r4, r2, r12") \
-    LINE("asr r12, " RIGHT ", #20") \
+    LINE("asr r12, r11, #20") \
     LINE("mla r1, r3, r4, r1") \
     LINE("mla lr, r10, r4, lr") \
     LINE("mla r6, r7, r4, r6") \
     LINE("add r0, r0, r4, lsl #1") \
     LINE("sub r5, r12, r2") \
-    LINE("add r2, sp, #ROW") \
+    LINE(ENTRY " add r2, sp, #ROW") \
     LINE("stm r2!, {r8, r9, r11, r12}") \
     LINE("ldm r2, {r8, r9, r11, r12}") \
     LINE("add r12, r12, r5, lsl #22") \
@@ -207,16 +278,21 @@ _Static_assert(offsetof(record_surface_t, source) == 8 && TEXTURED_FRACTION == 8
     LINE("subs r12, r12, #0x400000") \
     LINE("bcs 32b") \
     LINE("ldm sp, {r2, r4, r5, r8, r9, r11, r12}") \
-    LINE("adds r8, r8, #0x10000") \
+    LINE("adds r9, r9, #0x10000") \
     LINE("bmi 31b") \
     LINE("b 36f") \
-    LINE("35: adds r8, r8, #0x10000") \
+    LINE("35: adds r9, r9, #0x10000") \
     LINE("bmi 30b") \
-    LINE("36: beq 10b") \
-    LINE("rsbs r8, r8, #0") \
-    LINE("lsls r8, r8, #16") \
-    LINE("ldrd r9, r2, [sp, #NEXT_X]") \
-    LINE("str r2, [sp, #BEND_SLOPE]") \
+    LINE("36: lsls r9, r9, #17")            /* carry: the bend is on the right */ \
+    LINE("beq 10b") \
+    LINE("rsb r9, r9, #0") \
+    LINE("asr r9, r9, #1") \
+    LINE("bcs 37f") \
+    LINE("ldrd r8, r2, [sp, #NEXT_X]") \
+    LINE("str r2, [sp, #LEFT_SLOPE]") \
+    LINE("b 30b") \
+    LINE("37: ldrd r11, r2, [sp, #NEXT_X]") \
+    LINE("str r2, [sp, #RIGHT_SLOPE]") \
     LINE("b 30b")
 
 #define TEXEL_OF_PALETTE \
@@ -225,20 +301,6 @@ _Static_assert(offsetof(record_surface_t, source) == 8 && TEXTURED_FRACTION == 8
     LINE("ldrh r2, [r4, r2, lsl #1]")
 
 #define TEXEL_OF_COLOURS LINE("ldrh r2, [r9, r2, lsl #1]")
-
-#define ROWS_OF_ALL \
-    LINE("50: ldr r2, [sp, #PALETTE]") \
-    LINE("cmp r2, #0") \
-    LINE("bne 52f") \
-    LINE("b 54f") \
-    ROWS("52:", "r9", "r11", TEXEL_OF_PALETTE) \
-    LINE("51: ldr r2, [sp, #PALETTE]") \
-    LINE("cmp r2, #0") \
-    LINE("bne 53f") \
-    LINE("b 55f") \
-    ROWS("53:", "r11", "r9", TEXEL_OF_PALETTE) \
-    ROWS("54:", "r9", "r11", TEXEL_OF_COLOURS) \
-    ROWS("55:", "r11", "r9", TEXEL_OF_COLOURS)
 
 __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
     (void)run;
@@ -253,19 +315,28 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("add r11, sp, #COPY")
         LINE("ldm r0!, {r1-r8}")
         LINE("stm r11!, {r1-r8}")
+        LINE("cmp r5, #0")                  /* palette */
         LINE("ldm r0!, {r1-r8}")
         LINE("stm r11!, {r1-r8}")
         LINE("str r8, [sp, #STRIDE]")
+        LINE("ite ne")
+        LINE("adrne r9, 52f")
+        LINE("adreq r9, 54f")
+        LINE("add r9, r9, #1")              /* Thumb */
+        LINE("str r9, [sp, #DRAW]")
+        LINE("cmp r2, #0")                  /* known */
+        LINE("ite ne")
+        LINE("movne r9, r1")                /* source */
+        LINE("moveq r9, #-1")
+        LINE("str r9, [sp, #MATCH]")
         LINE("ldm r0!, {r1-r8}")
         LINE("stm r11!, {r1-r8}")
         LINE("ldm r0!, {r1-r8}")
         LINE("stm r11!, {r1-r8}")
-        LINE("ldm r0!, {r1-r8}")
-        LINE("stm r11!, {r1-r8}")
-        LINE("ldm r0!, {r1-r4}")
-        LINE("stm r11!, {r1-r4}")
-        LINE("ldm r0, {r0, r1, r2}")        /* list, end, count */
-        LINE("strd r2, r1, [sp, #COUNT]")
+        LINE("ldm r0, {r1, r2, r3, r4}")    /* width, list, end, count */
+        LINE("str r1, [r11]")
+        LINE("strd r4, r3, [sp, #COUNT]")
+        LINE("mov r0, r2")
         LINE("b 11f")
 
         COUNTED
@@ -275,176 +346,37 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("subs r3, r0, #1")
         LINE("cmp r3, r1")
         LINE("bhs 89f")
-        LINE("ldrd r2, r4, [sp, #ARENA]")
+        LINE("ldrd r2, r4, [sp, #LIMIT + 4]")
         LINE("mls r2, r0, r4, r2")
         LINE("ldrd r3, r4, [r2]")
         LINE("ldrh r5, [r2, #8]")
         LINE("strd r0, r3, [sp, #LIST]")
         LINE("ubfx r6, r4, #16, #8")
         LINE("orr r5, r5, r6, lsl #16")
-        LINE("ldrd r6, r7, [sp, #SOURCE]")
+        LINE("ldr r6, [sp, #MATCH]")
         LINE("cmp r5, r6")
-        LINE("bne 90f")
-        LINE("ldrd r1, lr, [sp, #VERTICES]")
-        LINE("cmp r7, #0")
-        LINE("beq 80f")
+        LINE("bne 87f")
+        LINE("17: ldrd r1, lr, [sp, #VERTICES]")
         CORNERS
         DIFFERENCES(NEAR_DIFFERENCES)
+        LINE("18: add r9, sp, #CORNERS + 4")
+        LINE("stm r9, {r1-r7, r11, r12, lr}")
+        CENTRE(PUT_AWAY)
+        EDGES("r6", "r2", "r7", "r4", "r3", "r11", , , RECORD, "r3", "r11", "bge", KEEP_LEFT)
+        LINE("40:")
+        EDGES("r7", "r4", "r6", "r2", "r11", "r3", , , RECORD, "r3", "r11", "bge", KEEP_RIGHT)
 
-        /* the first centre */
-        LINE("12: ldrd r9, r10, [sp, #TOP]")
-        LINE("sub r9, r9, r8")
-        LINE("asrs r8, r9, #4")
-        LINE("bpl 70f")
-        LINE("and r9, r9, #15")
-        LINE("13: add r10, r10, r8")
-        LINE("str r10, [sp, #ROWS_LEFT]")
-        LINE("ldr r10, [sp, #STRIDE]")
-        LINE("mul r8, r8, r10")
-        LINE("ldr r10, [sp, #DEPTH]")
-        LINE("sub r10, r10, r8")
-        LINE("rsb r0, r0, #8")
-        LINE("asr r8, r0, #4")
-        LINE("and r0, r0, #15")
-        LINE("sub r10, r10, r8, lsl #1")
-        LINE("str r10, [sp, #FIRST]")
-        LINE("strd r0, r9, [sp, #TO_X]")
-
-        /* r9 s1, r10 t1, r11 s2, r12 t2; lr: their sizes */
-        LINE("sxth r0, lr")
-        LINE("asr r8, lr, #16")
-        LINE("sxth r9, r11")
-        LINE("sub r9, r9, r0")
-        LINE("rsb r10, r8, r11, asr #16")
-        LINE("sxth r11, r12")
-        LINE("sub r11, r11, r0")
-        LINE("rsb r12, r8, r12, asr #16")
-        LINE("ldr lr, [sp, #S_INSIDE]")
-        LINE("and r0, r0, lr")
-        LINE("strd r0, r8, [sp, #CORNER]")
-        LINE("eor lr, r9, r9, asr #31")
-        LINE("eor r0, r10, r10, asr #31")
-        LINE("add lr, lr, r0")
-        LINE("eor r0, r11, r11, asr #31")
-        LINE("add lr, lr, r0")
-        LINE("eor r0, r12, r12, asr #31")
-        LINE("add lr, lr, r0")
-        LINE("ldr r0, [sp, #ACROSS]")
-        LINE("cmp lr, r0")
-        LINE("bhs 90f")
-
-        /* affine? */
-        LINE("lsr r8, r1, #8")
-        LINE("rsb r0, r8, r3, lsr #8")
-        LINE("rsb r8, r8, r5, lsr #8")
-        LINE("eor r0, r0, r0, asr #31")
-        LINE("eor r8, r8, r8, asr #31")
-        LINE("add r0, r0, r8")
-        LINE("lsrs r0, r0, #8")
-        LINE("adds r0, r0, #1")
-        LINE("ldr r8, [sp, #ONE]")
-        LINE("add lr, lr, r8")
-        LINE("mul r0, r0, lr")
-        LINE("ldr lr, [sp, #LOG2_ONE]")
-        LINE("lsr r8, r1, #16")
-        LINE("lsl r8, r8, lr")
-        LINE("cmp r0, r8")
-        LINE("bhi 90f")
-        LINE("str r1, [sp, #DEPTH_LIGHT]")
-
-        /* r8: area, then its reciprocal; r0: texels, lr: pixels, of the level? */
-        LINE("mul r8, r7, r2")
-        LINE("mls r8, r6, r4, r8")
-        LINE("cmp r8, #8")
-        LINE("blo 90f")
-        LINE("mul r0, r9, r12")
-        LINE("mls r0, r11, r10, r0")
-        LINE("eor r0, r0, r0, asr #31")
-        LINE("ldrd r1, lr, [sp, #LEVEL + UPPER]")
-        LINE("lsl lr, r8, lr")
-        LINE("lsr r1, r0, r1")
-        LINE("cmp r1, lr")
-        LINE("bhi 91f")
-        LINE("ldr r1, [sp, #LEVEL + LOWER]")
-        LINE("lsrs r0, r0, r1")
-        LINE("ldr r1, [sp, #LEVEL + ALWAYS]")
-        LINE("orrs r0, r0, r1")
-        LINE("cmp r0, lr")
-        LINE("bls 91f")
-        LINE("15: mvn r1, #0x80000000")
-        LINE("udiv r8, r1, r8")
-        LINE("ldrd r0, r1, [sp, #CORNER]")
-        LINE("ldr lr, [sp, #LEVEL + FROM_CORNER]")
-        LINE("lsls r0, r0, #8")
-        LINE("asr r0, r0, lr")
-        LINE("lsls r1, r1, #8")
-        LINE("asr r1, r1, lr")
-        LINE("strd r0, r1, [sp, #CORNER]")
-
-        /* steps: r0 and r9 of s, right and down, r11 and r10 of t */
-        LINE("ldrd r0, lr, [sp, #LEVEL + UP]")
-        LINE("asr lr, r8, lr")
-        LINE("lsl r9, r9, r0")
-        LINE("lsl r10, r10, r0")
-        LINE("lsl r11, r11, r0")
-        LINE("lsl r12, r12, r0")
-        LINE("mul r0, r11, r2")
-        LINE("mls r0, r9, r4, r0")
-        LINE("mul r9, r9, r7")
-        LINE("mls r9, r11, r6, r9")
-        LINE("mul r11, r12, r2")
-        LINE("mls r11, r10, r4, r11")
-        LINE("mul r10, r10, r7")
-        LINE("mls r10, r12, r6, r10")
-        LINE("smull r1, r0, r0, lr")
-        LINE("add r0, r0, r1, lsr #31")
-        LINE("smull r1, r9, r9, lr")
-        LINE("add r9, r9, r1, lsr #31")
-        LINE("smull r1, r11, r11, lr")
-        LINE("add r11, r11, r1, lsr #31")
-        LINE("smull r1, r10, r10, lr")
-        LINE("add r10, r10, r1, lsr #31")
-
-        /* r1: the map in the first row, or in that row of the top corner's pixel; r11, r10 its dx, dy */
-        LINE("ldrd r1, lr, [sp, #TO_X]")
-        LINE("and lr, lr, #15")
-        LINE("mul r12, r0, r1")
-        LINE("mla r12, r9, lr, r12")
-        LINE("mul r1, r11, r1")
-        LINE("mla r1, r10, lr, r1")
-        LINE("ldr lr, [sp, #CORNER]")
-        LINE("add r12, lr, r12, asr #4")
-        LINE("ldr lr, [sp, #CORNER + 4]")
-        LINE("add r1, lr, r1, asr #4")
-        LINE("ldr lr, [sp, #LEVEL + T_UNIT]")
-        LINE("mul r1, r1, lr")
-        LINE("mul r11, r11, lr")
-        LINE("mul r10, r10, lr")
-        LINE("ldr lr, [sp, #LEVEL + S_UNIT]")
-        LINE("mla r1, r12, lr, r1")
-        LINE("mla r11, r0, lr, r11")
-        LINE("mla r10, r9, lr, r10")
-        LINE("ldrd r0, r9, [sp, #TO_X]")
-        LINE("lsr lr, r9, #4")
-        LINE("mla r1, r10, lr, r1")
-        LINE("strd r1, r11, [sp, #MAP]")
-        LINE("str r10, [sp, #MAP_DY]")
-        LINE("ldr r1, [sp, #DEPTH_LIGHT]")
-
+        ASKED
+        MAPPED
+        LINE("add r10, sp, #KEPT + CORNERS")
+        LINE("ldm r10, {r0-r7}")
         DEPTHS
         LIGHT("0x28000000")                 /* half and TEXTURED_BIAS, times 16 */
         DEPTH("r5")
-        LINE("str r5, [sp, #DEPTH_DY]")
+        LINE("str r5, [sp, #KEPT + DEPTH_DY]")
+        FIRST);
 
-        LINE("14: ldrd r8, r5, [sp, #ROWS_LEFT]")
-        LINE("sub r0, r5, r0, lsl #16")
-        LINE("cmp r2, r4")
-        LINE("bge 40f")
-        EDGES("r6", "r2", "r7", "r4", "50f")
-        LINE("40:")
-        EDGES("r7", "r4", "r6", "r2", "51f"));
-
-    __asm__ volatile(ROWS_OF_ALL);
+    __asm__ volatile(ROWS("52:", TEXEL_OF_PALETTE) ROWS("54:", TEXEL_OF_COLOURS));
 
     /* What is seldom. */
     __asm__ volatile(
@@ -454,45 +386,35 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         FAR_SHADE(LINE("add lr, lr, #0x2000000")) /* TEXTURED_BIAS */
         LINE("b 14b")
 
-        /* another level: the other one? Then they change places. */
-        LINE("91: mul r0, r9, r12")
-        LINE("mls r0, r11, r10, r0")
-        LINE("eor r0, r0, r0, asr #31")
-        LINE("ldr r1, [sp, #OTHER + UPPER]")
-        LINE("lsr r1, r0, r1")
-        LINE("cmp r1, lr")
-        LINE("bhi 90f")
-        LINE("ldr r1, [sp, #OTHER + LOWER]")
-        LINE("lsrs r0, r0, r1")
-        LINE("ldr r1, [sp, #OTHER + ALWAYS]")
-        LINE("orrs r0, r0, r1")
-        LINE("cmp r0, lr")
-        LINE("bls 90f")
-        LINE("push {r2-r7, r9-r12}")
-        LINE("add r0, sp, #40 + LEVEL")
-        LINE("add r1, sp, #40 + OTHER")
-        LINE("ldm r0, {r2-r6}")
-        LINE("ldm r1, {r7, r9-r12}")
-        LINE("stm r0!, {r7, r9-r12}")
-        LINE("stm r1!, {r2-r6}")
-        LINE("ldm r0, {r2-r6}")
-        LINE("ldm r1, {r7, r9-r12}")
-        LINE("stm r0!, {r7, r9-r12}")
-        LINE("stm r1!, {r2-r6}")
-        LINE("ldrd r2, r3, [sp, #40 + COPY]")
-        LINE("ldrd r4, r5, [r1]")
-        LINE("strd r2, r3, [r1]")
-        LINE("strd r4, r5, [sp, #40 + COPY]")
-        LINE("pop {r2-r7, r9-r12}")
-        LINE("b 15b")
+        /* another source, or nothing is known of the face */
+        LINE("87: ldrd r6, r7, [sp, #SOURCE]")
+        LINE("eors r6, r6, r5")
+        LINE("beq 80f")
+        LINE("lsrs r6, r6, #16")
+        LINE("bne 90f")                     /* another material, too */
+        LINE("uxth r6, r5")
+        LINE("ldr r1, [sp, #VERTICES]")
+        LINE("add r8, r1, r6, lsl #3")
+        LINE("ldrd r9, r10, [r8]")          /* source_slot_t */
+        LINE("ldrh r8, [r8, #8]")
+        LINE("ldrd r11, r12, [sp, #INSTANCE]")
+        LINE("eor r10, r10, r11")
+        LINE("orrs r10, r10, r8")           /* no colours, no attributes */
+        LINE("bne 90f")
+        LINE("subs r6, r9, r6")
+        LINE("add r12, r12, r6, lsl #2")
+        LINE("str r12, [sp, #VERTICES + 4]")
+        LINE("str r5, [sp, #SOURCE]")
+        LINE("cbz r7, 80f")
+        LINE("str r5, [sp, #MATCH]")
+        LINE("b 17b")
 
-        /* nothing is known of the face: is it short, and inside the tile's columns? */
-        LINE("80:")
+        /* is it short, and inside the tile's columns? */
+        LINE("80: ldrd r1, lr, [sp, #VERTICES]")
         CORNERS
         DIFFERENCES(TRUE_DIFFERENCES)
         SHORT
-        LINE("ldr r9, [sp, #LEFT]")
-        LINE("ldr r10, [sp, #LEFT + 4]")
+        LINE("ldrd r9, r10, [sp, #LEFT]")
         LINE("sub r9, r0, r9")
         LINE("cmp r9, r10")
         LINE("bhs 90f")
@@ -502,9 +424,46 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("subs r9, r9, r6")
         LINE("add r9, r9, r7")
         LINE("cmp r9, r10")
-        LINE("blo 12b")
+        LINE("blo 18b")
+        LINE("b 90f")
 
-        LEAVE);
+        /* another level: the first that is not too fine, if the run has it and it is not too coarse */
+        LINE("91: ldr r3, [sp, #KEPT + RUN]")
+        LINE("adds r3, r3, #LEVELS")
+        LINE("93: ldr r10, [r3], #40")
+        LINE("lsr r10, r0, r10")
+        LINE("cmp r10, r1")
+        LINE("bhi 93b")
+        LINE("subs r3, r3, #36")
+        LINE("ldr r10, [r3]")
+        LINE("lsr r10, r0, r10")
+        LINE("ldr r0, [r3, #4]")
+        LINE("orr r10, r10, r0")
+        LINE("cmp r10, r1")
+        LINE("bls 92f")
+        LINE("push {r2, r4, r5, r6, r7, r11, r12}")
+        LINE("subs r3, r3, #4")
+        LINE("ldm r3, {r0, r1, r2, r4, r5, r6, r7, r10, r11, r12}")
+        LINE("add r3, sp, #28 + KEPT + LOWER - 4")
+        LINE("stm r3, {r0, r1, r2, r4, r5, r6, r7, r10}")
+        LINE("strd r11, r12, [sp, #28 + KEPT + COPY]")
+        LINE("pop {r2, r4, r5, r6, r7, r11, r12}")
+        LINE("b 16b")
+
+        /* left to C, and not yet put behind those that reach below */
+        LINE("92: add sp, sp, #KEPT")
+        LINE("ldrd r0, r4, [sp, #LIST]")
+        LINE("ldrd r1, r3, [sp, #LIMIT + 4]")
+        LINE("ldr r2, [sp, #END]")
+        LINE("mls r1, r0, r3, r1")
+        LINE("cmp r1, r2")
+        LINE("bne 90f")
+        LINE("ldr r2, [sp, #END_BEFORE]")
+        LINE("movs r3, #0")
+        LINE("strh r3, [r2]")
+        LINE("strh r4, [r1]")               /* its next */
+        LINE("str r2, [sp, #END]")
+        LEAVE(LINE("ldr r1, [sp, #SOURCE]") LINE("str r1, [r0, #32]")));
 }
 
 /* clang-format on */
