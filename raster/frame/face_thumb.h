@@ -1,4 +1,4 @@
-/* face_bin_plain for most clusters, in assembly: face_thumb.c. */
+/* face_bin_plain for most clusters, in assembly: face_thumb.c, face_thumb1.c. */
 #ifndef TUILE_FRAME_FACE_THUMB_H
 #define TUILE_FRAME_FACE_THUMB_H
 
