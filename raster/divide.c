@@ -1,6 +1,18 @@
-/* floor(2^31 / i), with 0 for i = 0. */
+/* The tables of raster/divide.h. */
 #include "divide.h"
 
+#define SHIFT(i) (2 + ((i) >= 2) + ((i) >= 4) + ((i) >= 8) + ((i) >= 16) + ((i) >= 32) + ((i) >= 64) + ((i) >= 128) + ((i) >= 256))
+#define SIDE(i) \
+    { SHIFT(i), ((UINT32_C(1) << (20 + SHIFT(i))) + (i) / 2) / ((i) ? (i) : 1) }
+#define SIDES_8(i) SIDE(i), SIDE(i + 1), SIDE(i + 2), SIDE(i + 3), SIDE(i + 4), SIDE(i + 5), SIDE(i + 6), SIDE(i + 7)
+#define SIDES_64(i) \
+    SIDES_8(i), SIDES_8(i + 8), SIDES_8(i + 16), SIDES_8(i + 24), SIDES_8(i + 32), SIDES_8(i + 40), SIDES_8(i + 48), SIDES_8(i + 56)
+
+const divide_side_t divide_sides[DIVIDE_TABLE] = {
+    SIDES_64(0), SIDES_64(64), SIDES_64(128), SIDES_64(192), SIDES_64(256), SIDES_64(320), SIDES_64(384), SIDES_64(448),
+};
+
+/* floor(2^31 / i), with 0 for i = 0. */
 const uint32_t divide_table[DIVIDE_TABLE] = {
     0, 2147483648u, 1073741824, 715827882, 536870912, 429496729, 357913941, 306783378, 268435456, 238609294, 214748364, 195225786,
     178956970, 165191049, 153391689, 143165576, 134217728, 126322567, 119304647, 113025455, 107374182, 102261126, 97612893,

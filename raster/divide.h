@@ -10,13 +10,17 @@
 #define DIVIDE_TABLE 512
 extern const uint32_t divide_table[DIVIDE_TABLE];
 
-/* dx * 2^20 / dy, less than 1.25 too small or 0.25 too large; |dx| < 512, 0 < dy < 512. The table's number is less than 1 too
- * small, so its product with dx is less than 2^9 off, which is 1/4 behind the shift by 11; the product is made of the number's
- * halves, and rounded down once. */
+/* Of dy: 2^(20 + shift) / dy, to the nearest, with as many places as leave its product with |dx| < 512 below 2^31: shift is 2 and
+ * the places that dy has behind its first one. */
+typedef struct divide_side {
+    uint32_t shift, inverse;
+} divide_side_t;
+extern const divide_side_t divide_sides[DIVIDE_TABLE];
+
+/* dx * 2^20 / dy, |dx| < 512, 0 < dy < 512: less than 1 + |dx| / (4 dy) too small, or |dx| / (4 dy) too large. */
 TUILE_INLINE int32_t divide_side_by_table(int32_t dx, int32_t dy) {
-    const uint32_t inverse = divide_table[dy];
-    const int32_t high = (int32_t)(inverse >> 16) * dx, low = (int32_t)(inverse & 0xffffu) * dx; /* < 2^24, < 2^25 */
-    return high * 32 + (low >> 11);
+    const divide_side_t side = divide_sides[dy];
+    return (dx * (int32_t)side.inverse) >> side.shift;
 }
 
 /* quotient and rest of n by d, when they are off by little. */
@@ -103,7 +107,7 @@ TUILE_INLINE int64_t divide_floor46(int64_t a, int32_t b, int32_t r) {
     return FIXED_WIDE_REGISTERS ? fixed_floor_div64(a, b) : divide_floor46_by_words(a, b, FIXED_BY_HALVES ? r : 0);
 }
 
-/* dx * 2^20 / dy, less than 1.25 too small or 1 too large. */
+/* dx * 2^20 / dy, less than 1 + |dx| / (4 dy) too small or too large. */
 TUILE_INLINE int32_t divide_side(int32_t dx, int32_t dy) {
     return FIXED_BY_HALVES ? divide_side_by_table(dx, dy) : dx * (INT32_C(1) << 20) / dy;
 }

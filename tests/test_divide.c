@@ -12,16 +12,25 @@ static void the_table_is_that_of_its_comment(void **state) {
     }
 }
 
-/* Either way of dividing: less than 1.25 too small, and less than 1 too large; in quarters. */
+static void the_table_of_sides_is_that_of_its_comment(void **state) {
+    (void)state;
+    for (uint32_t i = 1; i < DIVIDE_TABLE; i++) {
+        const uint32_t shift = divide_sides[i].shift;
+        assert_true(i >> (shift - 2) == 1);
+        assert_int_equal(divide_sides[i].inverse, ((UINT64_C(1) << (21 + shift)) / i + 1) / 2);
+    }
+}
+
+/* Either way of dividing: less than 1 + |dx| / (4 dy) too small or too large; in quarters. */
 static void slopes_of_short_sides_are_as_near_as_sides_need(void **state) {
     (void)state;
     for (int32_t dy = 1; dy < 512; dy += CHECK_SANITIZED ? 7 : 1) {
         for (int32_t dx = -511; dx < 512; dx++) {
-            const int64_t exact = (int64_t)dx * (1 << 20); /* times dy */
+            const int64_t exact = (int64_t)dx * (1 << 20), size = dx < 0 ? -dx : dx; /* times dy */
             const int64_t table = 4 * (divide_side_by_table(dx, dy) * (int64_t)dy - exact),
                           here = 4 * (divide_side(dx, dy) * (int64_t)dy - exact);
-            assert_true(-5 * dy < table && table < dy);
-            assert_true(-5 * dy < here && here < 4 * dy);
+            assert_true(-4 * dy - size < table && table <= size);
+            assert_true(-4 * dy - size < here && here < 4 * dy + size);
         }
     }
 }
@@ -62,6 +71,7 @@ static void scaled_numbers_are_divided_by_areas_and_floored(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_table_is_that_of_its_comment),
+        cmocka_unit_test(the_table_of_sides_is_that_of_its_comment),
         cmocka_unit_test(slopes_of_short_sides_are_as_near_as_sides_need),
         cmocka_unit_test(reciprocals_of_areas_are_floored),
         cmocka_unit_test(ones_are_divided_by_16_bits),

@@ -162,8 +162,8 @@ typedef struct small_side {
 } small_side_t;
 
 /* One side at the centre of a row `t` sixteenths below its upper end, which is `start` in columns (small_start). With the bias of
- * fill/edge.h, 1 + e, any slope is good that keeps that above 0 and up to 128: one that is off by -1.25 ... 1 changes e by t / 16
- * times as much, t < 512, and 64 lies in the middle. */
+ * fill/edge.h, 1 + e, any slope is good that keeps that above 0 and up to 128, 64 lying in the middle. One that is off changes e by
+ * t / 16 times as much, t <= dy < 512: divide_side's by less than 32 for its floor and |dx| / 64 < 8 for the rest. */
 TUILE_INLINE small_side_t small_side(small_int_t start, small_int_t dx, small_int_t dy, small_int_t t) {
     const int32_t slope = divide_side((int32_t)dx, (int32_t)dy);
     return (small_side_t){start + ((t * slope) >> 4), slope};

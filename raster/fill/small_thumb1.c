@@ -61,6 +61,41 @@ const uint8_t small_thumb1_shifts[512] = {
 
 #define ADDRESS LINE("lsls r0, r0, #3")
 
+/* From column 0 of the row above; 31: from the first row's on. */
+#define ROWS \
+    UNIFIED \
+    LINE("30: mov r7, sp") \
+    LINE("ldm r7, {r0, r1, r2, r5, r6, r7}") \
+    LINE("add r10, r0") \
+    LINE("add r11, r1") \
+    LINE("add r12, r2") \
+    LINE("add lr, r5") \
+    LINE("adds r7, r7, r6") \
+    LINE("str r7, [sp, #ROW]") \
+    SPAN \
+    LINE("31: mov r1, r8") \
+    LINE("muls r1, r5") \
+    LINE("add r1, r12") \
+    LINE("mov r2, r9") \
+    LINE("muls r2, r5") \
+    LINE("add r2, lr") \
+    LINE("lsls r0, r5, #1") \
+    LINE("adds r0, r0, r7") \
+    LINE("b 34f") \
+    LINE("33: adds r0, #2") \
+    LINE("add r1, r8") \
+    LINE("add r2, r9") \
+    LINE("34: ldrh r5, [r0]") \
+    LINE("lsrs r7, r1, #16") \
+    LINE("cmp r7, r5") \
+    LINE("bls 36f") \
+    LINE("strh r7, [r0]") \
+    LINE("lsrs r7, r2, #26") \
+    LINE("lsls r7, r7, #1") \
+    LINE("ldrh r7, [r3, r7]") \
+    LINE("strh r7, [r0, r4]") \
+    ENDS
+
 /* r8 and r9 dx, r12 and lr depth and light in column 0, r3 the ramp, r4 from a pixel's depth to its colour. */
 __attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
     (void)run;
@@ -87,40 +122,11 @@ __attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
         LINE("mov r7, r3")
         LINE("ldr r3, [sp, #RAMP]")
         LINE("ldr r4, [sp, #COLOUR]")
-        LINE("b 31f")
+        LINE("b 31f"));
 
-        LINE("30: mov r7, sp")
-        LINE("ldm r7, {r0, r1, r2, r5, r6, r7}")
-        LINE("add r10, r0")
-        LINE("add r11, r1")
-        LINE("add r12, r2")
-        LINE("add lr, r5")
-        LINE("adds r7, r7, r6")
-        LINE("str r7, [sp, #ROW]")
-        SPAN
-        LINE("31: mov r1, r8")
-        LINE("muls r1, r5")
-        LINE("add r1, r12")
-        LINE("mov r2, r9")
-        LINE("muls r2, r5")
-        LINE("add r2, lr")
-        LINE("lsls r0, r5, #1")
-        LINE("adds r0, r0, r7")
-        LINE("b 34f")
-        LINE("33: adds r0, #2")
-        LINE("add r1, r8")
-        LINE("add r2, r9")
-        LINE("34: ldrh r5, [r0]")
-        LINE("lsrs r7, r1, #16")
-        LINE("cmp r7, r5")
-        LINE("bls 36f")
-        LINE("strh r7, [r0]")
-        LINE("lsrs r7, r2, #26")
-        LINE("lsls r7, r7, #1")
-        LINE("ldrh r7, [r3, r7]")
-        LINE("strh r7, [r0, r4]")
-        ENDS
+    __asm__ volatile(ROWS);
 
+    __asm__ volatile(UNIFIED
         FAR(FAR_LIGHTS, LINE("ldr r7, [sp, #FAR_LIGHT_DX]") LINE("mov r9, r7"), "1", LINE("str r5, [sp, #LIGHT_DY]"))
         FAR_LIGHT_OF
         BESIDE());

@@ -8,8 +8,9 @@
 
 /* A triangle as it lies at the stack pointer, and its gradients. */
 typedef struct small_thumb1_far {
-    int32_t x1, y1, x2, y2;
     uint32_t corner0, corner1, corner2; /* depth_light */
+    int32_t x1, y1, x2, y2;
+    int32_t z0, z1, z2; /* depth_light >> 8, from the first corner for the others */
     uint32_t to_x, to_y;
     uint32_t depth, depth_dx, depth_dy, light, light_dx, light_dy; /* out: at the first centre, and a pixel further */
 } small_thumb1_far_t;
@@ -34,7 +35,7 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
 
 #define UNIFIED LINE(".syntax unified") /* which gcc does not take for Thumb-1 */
 
-/* At the stack pointer, bytes. A row loads what stands first, up to ROW; STRIDE is a loop's own. From X1 to FAR_LIGHT_DY as
+/* At the stack pointer, bytes. A row loads what stands first, up to ROW; STRIDE is a loop's own. From CORNER0 to FAR_LIGHT_DX as
  * small_thumb1_far_t has it; from LIMIT to DEPTH, and from RECORD_BYTES to GIVEN, as small_run_t. */
 #define FRAME \
     LINE(".equ SLOPE_LEFT, 0") \
@@ -47,45 +48,45 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
     LINE(".equ BELOW, 36") \
     LINE(".equ NEXT_X, 40")         /* the side below the bend, a row before its first, and its slope */ \
     LINE(".equ NEXT_SLOPE, 44") \
-    LINE(".equ X1, 48") \
-    LINE(".equ Y1, 52") \
-    LINE(".equ Y2, 60") \
-    LINE(".equ CORNER0, 64") \
-    LINE(".equ TO_X, 76") \
-    LINE(".equ TO_Y, 80") \
-    LINE(".equ FAR_DEPTH, 84") \
-    LINE(".equ FAR_DEPTH_DX, 88") \
-    LINE(".equ FAR_DEPTH_DY, 92") \
-    LINE(".equ FAR_LIGHT, 96")      /* or light at the first centre */ \
-    LINE(".equ FAR_LIGHT_DX, 100") \
-    LINE(".equ FAR_LIGHT_DY, 104") \
-    LINE(".equ LIMIT, 108")         /* limit, arena_end, vertices, known */ \
-    LINE(".equ ARENA, 112") \
-    LINE(".equ TOP, 124") \
-    LINE(".equ HEIGHT, 128") \
-    LINE(".equ DEPTH, 132") \
-    LINE(".equ RECORD_BYTES, 136") \
-    LINE(".equ RAMP, 140") \
-    LINE(".equ COLOUR, 144") \
-    LINE(".equ MATERIAL, 148") \
-    LINE(".equ LEFT, 152") \
-    LINE(".equ WIDTH, 156") \
-    LINE(".equ GIVEN, 160") \
-    LINE(".equ LIST, 164")          /* number + 1 of the face, then the end of those that reach below, then the count */ \
-    LINE(".equ END, 168") \
-    LINE(".equ COUNT, 172") \
-    LINE(".equ RUN, 176") \
-    LINE(".equ NEXT, 180")          /* first word of the record: number + 1 of the next in its lower half */ \
-    LINE(".equ BACK, 184")          /* -stride */ \
-    LINE(".equ TABLE, 188")         /* divide_table, small_thumb1_shifts */ \
-    LINE(".equ SHIFTS, 192") \
-    LINE(".equ START, 196")         /* small_start(0) */ \
-    LINE(".equ ONES, 200")          /* 2^31 - 1 */ \
-    LINE(".equ NEAR, 204")          /* TRIANGLE_SMALL_DEPTH */ \
-    LINE(".equ VALUE, 208")         /* flat: the colour */ \
-    LINE(".equ FRACTION, 212")      /* of the reciprocal: divide_area_t's f / 2^16, and area */ \
-    LINE(".equ DIVISOR, 216") \
-    LINE(".equ FRAME, 220") \
+    LINE(".equ CORNER0, 48") \
+    LINE(".equ X1, 60") \
+    LINE(".equ Y1, 64") \
+    LINE(".equ Y2, 72") \
+    LINE(".equ Z0, 76") \
+    LINE(".equ TO_X, 88") \
+    LINE(".equ TO_Y, 92") \
+    LINE(".equ FAR_DEPTH, 96") \
+    LINE(".equ FAR_DEPTH_DX, 100") \
+    LINE(".equ FAR_LIGHT, 108")     /* or light at the first centre */ \
+    LINE(".equ FAR_LIGHT_DX, 112") \
+    LINE(".equ LIMIT, 120")         /* limit, arena_end, vertices, known */ \
+    LINE(".equ ARENA, 124") \
+    LINE(".equ TOP, 136") \
+    LINE(".equ HEIGHT, 140") \
+    LINE(".equ DEPTH, 144") \
+    LINE(".equ RECORD_BYTES, 148") \
+    LINE(".equ RAMP, 152") \
+    LINE(".equ COLOUR, 156") \
+    LINE(".equ MATERIAL, 160") \
+    LINE(".equ LEFT, 164") \
+    LINE(".equ WIDTH, 168") \
+    LINE(".equ GIVEN, 172") \
+    LINE(".equ LIST, 176")          /* number + 1 of the face, then the end of those that reach below, then the count */ \
+    LINE(".equ END, 180") \
+    LINE(".equ COUNT, 184") \
+    LINE(".equ RUN, 188") \
+    LINE(".equ NEXT, 192")          /* first word of the record: number + 1 of the next in its lower half */ \
+    LINE(".equ BACK, 196")          /* -stride */ \
+    LINE(".equ TABLE, 200")         /* divide_table, small_thumb1_shifts */ \
+    LINE(".equ SHIFTS, 204") \
+    LINE(".equ START, 208")         /* small_start(0) */ \
+    LINE(".equ ONES, 212")          /* 2^31 - 1 */ \
+    LINE(".equ NEAR, 216")          /* TRIANGLE_SMALL_DEPTH */ \
+    LINE(".equ VALUE, 220")         /* flat: the colour */ \
+    LINE(".equ FRACTION, 224")      /* of the reciprocal: divide_area_t's f / 2^16, and area */ \
+    LINE(".equ DIVISOR, 228") \
+    LINE(".equ SIDES, 232")         /* divide_sides */ \
+    LINE(".equ FRAME, 236") \
     LINE(".equ RUN_STRIDE, 28") \
     LINE(".equ RUN_LIST, 60")
 
@@ -120,6 +121,8 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
     LINE("stm r1!, {r4-r7}") \
     LINE("ldr r2, =0x20000") \
     LINE("str r2, [sp, #NEAR]") \
+    LINE("ldr r2, =divide_sides") \
+    LINE("str r2, [sp, #SIDES]") \
     LINE("ldr r0, [sp, #LIST]") \
     LINE("b 11f") \
     LINE(".ltorg") \
@@ -194,7 +197,7 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
 #define ANY_X \
     LINE("sxth r2, r2") LINE("sxth r4, r4") LINE("sxth r1, r0") LINE("subs r2, r2, r1") LINE("subs r4, r4, r1")
 
-/* The first centre: r1 to_y, r0 start; r6 rows of the tile from there on, r8 from the address of its depth to DEPTH, r9 the table.
+/* The first centre: r1 to_y, r0 start; r6 rows of the tile from there on, r8 from the address of its depth to DEPTH, r9 divide_sides.
  * All but the place of the first corner is put away. */
 #define CENTRE \
     LINE("12: ldr r1, [sp, #TOP]") \
@@ -222,7 +225,7 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
     LINE("lsrs r0, r0, #12") \
     LINE("ldr r7, [sp, #START]") \
     LINE("subs r0, r7, r0") \
-    LINE("ldr r7, [sp, #TABLE]") \
+    LINE("ldr r7, [sp, #SIDES]") \
     LINE("mov r9, r7") \
     LINE("cmp r3, r5") \
     LINE("blt 14f") \
@@ -231,18 +234,13 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
     LINE("b 13b") \
     LINE("14:")
 
-/* r7: dx * 2^20 / dy, divide_side_by_table; X, which may be dy, is lost. */
+/* r7: dx * 2^20 / dy, divide_side_by_table; X, a lower register, which may be dy, is lost. */
 #define SIDE(DX, DY, X) \
-    LINE("lsls r7, " DY ", #2") \
+    LINE("lsls r7, " DY ", #3") \
     LINE("add r7, r9") \
-    LINE("ldr r7, [r7]") \
-    LINE("lsrs " X ", r7, #16") \
-    LINE("muls " X ", " DX) \
-    LINE("uxth r7, r7") \
+    LINE("ldm r7, {" X ", r7}") \
     LINE("muls r7, " DX) \
-    LINE("asrs r7, r7, #11") \
-    LINE("lsls " X ", " X ", #5") \
-    LINE("adds r7, r7, " X)
+    LINE("asrs r7, " X)
 
 /* The sides of a triangle whose mid corner is (XM, YM), on side BEND, and its lowest one (XL, YL), OTHER being the other side, each
  * with the place of its slope. Then the first row that is not empty: r5 its first column, r6 pixels. RECORD: r0 times the size of a

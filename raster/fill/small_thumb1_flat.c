@@ -35,6 +35,31 @@
     LINE("beq 84f") \
     LINE("81: str r1, [sp, #VALUE]")
 
+#define ROWS \
+    UNIFIED \
+    LINE("30: mov r7, sp") \
+    LINE("ldm r7!, {r0, r1, r2, r5}") \
+    LINE("add r10, r0") \
+    LINE("add r11, r1") \
+    LINE("add r12, r2") \
+    LINE("add lr, r5") \
+    SPAN \
+    LINE("31: mov r1, r8") \
+    LINE("muls r1, r5") \
+    LINE("add r1, r12") \
+    LINE("lsls r0, r5, #1") \
+    LINE("add r0, lr") \
+    LINE("b 34f") \
+    LINE("33: adds r0, #2") \
+    LINE("add r1, r8") \
+    LINE("34: ldrh r5, [r0]") \
+    LINE("lsrs r7, r1, #16") \
+    LINE("cmp r7, r5") \
+    LINE("bls 36f") \
+    LINE("strh r7, [r0]") \
+    LINE("strh r3, [r0, r4]") \
+    ENDS
+
 /* r8 dx, r12 depth in column 0, lr its address, r3 the colour, r4 from a pixel's depth to its colour. */
 __attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
     (void)run;
@@ -57,31 +82,11 @@ __attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
         LINE("mov lr, r3")
         LINE("ldr r3, [sp, #VALUE]")
         LINE("ldr r4, [sp, #COLOUR]")
-        LINE("b 31f")
+        LINE("b 31f"));
 
-        LINE("30: mov r7, sp")
-        LINE("ldm r7!, {r0, r1, r2, r5}")
-        LINE("add r10, r0")
-        LINE("add r11, r1")
-        LINE("add r12, r2")
-        LINE("add lr, r5")
-        SPAN
-        LINE("31: mov r1, r8")
-        LINE("muls r1, r5")
-        LINE("add r1, r12")
-        LINE("lsls r0, r5, #1")
-        LINE("add r0, lr")
-        LINE("b 34f")
-        LINE("33: adds r0, #2")
-        LINE("add r1, r8")
-        LINE("34: ldrh r5, [r0]")
-        LINE("lsrs r7, r1, #16")
-        LINE("cmp r7, r5")
-        LINE("bls 36f")
-        LINE("strh r7, [r0]")
-        LINE("strh r3, [r0, r4]")
-        ENDS
+    __asm__ volatile(ROWS);
 
+    __asm__ volatile(UNIFIED
         FAR(, , "0", )
         BESIDE(GIVEN_COLOUR));
 }

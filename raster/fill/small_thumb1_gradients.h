@@ -6,13 +6,13 @@
 
 /* clang-format off */
 
-/* r6: 2^31 - 1 divided by the area, r6, by way of the table r9: r7, divide_area_by_table. */
+/* r7: 2^31 - 1 divided by the area, r6: divide_area_by_table. */
 #define RECIPROCAL \
     LINE("lsrs r0, r6, #9") \
     LINE("bne 76f") \
     LINE("lsls r1, r6, #2")         /* an area below 512: the table's, or one less for powers of two */ \
-    LINE("add r1, r9") \
-    LINE("ldr r7, [r1]") \
+    LINE("ldr r7, [sp, #TABLE]") \
+    LINE("ldr r7, [r7, r1]") \
     LINE("subs r1, r6, #1") \
     LINE("tst r1, r6") \
     LINE("bne 75f") \
@@ -32,8 +32,8 @@
     LINE("movs r1, r6") \
     LINE("lsrs r1, r0") \
     LINE("lsls r1, r1, #2") \
-    LINE("add r1, r9") \
-    LINE("ldr r1, [r1]") \
+    LINE("ldr r2, [sp, #TABLE]") \
+    LINE("ldr r1, [r2, r1]") \
     LINE("lsrs r1, r1, #9")         /* inverse */ \
     LINE("lsls r7, r1, #9") \
     LINE("lsrs r7, r0")             /* quotient */ \
@@ -63,24 +63,39 @@
 /* r7 into its halves: r9 the lower, r12 the upper one. */
 #define HALVES LINE("lsrs r6, r7, #16") LINE("mov r12, r6") LINE("uxth r7, r7") LINE("mov r9, r7")
 
-/* Corners: r0 x1, r1 y1, r2 x2, r3 y2, and of the three what of depth_light SHIFT leaves, from the first for the others: r4, r5,
- * r6. r7 is lost. */
+/* Of the corners r0 and, from there on, r1, r2 what OF leaves of depth_light; r3 x1, r4 y1, r5 x2, r6 y2; r7 is lost. */
 #define DEPTH_OF(R) LINE("lsrs " R ", " R ", #8")
 #define LIGHT_OF(R) LINE("uxtb " R ", " R)
 #define VALUES(OF) \
+    LINE("add r7, sp, #CORNER0") \
+    LINE("ldm r7!, {r0-r6}") \
+    OF("r0") \
+    OF("r1") \
+    OF("r2") \
+    LINE("subs r1, r1, r0") \
+    LINE("subs r2, r2, r0")
+
+/* Those of depth are put away. */
+#define Z_KEPT LINE("add r7, sp, #Z0") LINE("stm r7!, {r0, r1, r2}")
+
+/* Then r6 the area. */
+#define AREA LINE("muls r5, r4") LINE("muls r3, r6") LINE("subs r6, r5, r3")
+
+/* r1, r2: numerators of dx and dy of light; r4 that of the first corner. */
+#define LIGHT_NUMERATORS \
+    VALUES(LIGHT_OF) \
+    LINE("muls r4, r2") \
+    LINE("muls r6, r1") \
+    LINE("muls r5, r1") \
+    LINE("subs r1, r4, r6") \
+    LINE("muls r3, r2") \
+    LINE("subs r2, r5, r3") \
+    LINE("mov r4, r0")
+
+/* Likewise of depth. */
+#define DEPTH_NUMERATORS \
     LINE("add r7, sp, #X1") \
     LINE("ldm r7!, {r0-r6}") \
-    OF("r4") \
-    OF("r5") \
-    OF("r6") \
-    LINE("subs r5, r5, r4") \
-    LINE("subs r6, r6, r4")
-
-/* Of those: r6 the area. */
-#define AREA LINE("muls r2, r1") LINE("muls r0, r3") LINE("subs r6, r2, r0")
-
-/* Of those: r1, r2 the numerators of dx and dy. */
-#define NUMERATORS \
     LINE("muls r1, r6") \
     LINE("muls r3, r5") \
     LINE("subs r1, r1, r3") \
@@ -109,11 +124,12 @@
     LINE("subs r7, r7, r0") \
     LINE("str r7, [sp, #ROW]") \
     VALUES(DEPTH_OF) \
+    Z_KEPT \
     LINE("ldr r7, [sp, #NEAR]") \
-    LINE("adds r5, r5, r7") \
-    LINE("adds r6, r6, r7") \
-    LINE("orrs r5, r6") \
-    LINE("lsrs r5, r5, #18") \
+    LINE("adds r1, r1, r7") \
+    LINE("adds r2, r2, r7") \
+    LINE("orrs r1, r2") \
+    LINE("lsrs r1, r1, #18") \
     LINE("beq 51f") \
     LINE("b 71f") \
     LINE("51:") \
@@ -141,8 +157,7 @@
 
 /* lr: light's dx; dy and what it is at the first centre are put away. */
 #define LIGHTS \
-    VALUES(LIGHT_OF) \
-    NUMERATORS \
+    LIGHT_NUMERATORS \
     NUMERATORS_SHORT \
     LINE("mov r3, r9") \
     LINE("muls r3, r1") \
@@ -192,8 +207,7 @@
 
 /* r8: depth's dx, r12 what it is at the first centre; dy is put away. */
 #define DEPTHS \
-    VALUES(DEPTH_OF) \
-    NUMERATORS \
+    DEPTH_NUMERATORS \
     PRODUCT("r1", "r3", "r6", ) \
     LINE("lsls r7, r1, #13") \
     LINE("asrs r3, r5, #3") \
@@ -232,10 +246,10 @@
     VALUES(DEPTH_OF) \
     LINE("ldr r7, [sp, #NEAR]") \
     LINE("lsls r7, r7, #3") \
-    LINE("adds r5, r5, r7") \
-    LINE("adds r6, r6, r7") \
-    LINE("orrs r5, r6") \
-    LINE("lsrs r5, r5, #21") \
+    LINE("adds r1, r1, r7") \
+    LINE("adds r2, r2, r7") \
+    LINE("orrs r1, r2") \
+    LINE("lsrs r1, r1, #21") \
     LINE("beq 56f") \
     LINE("b 77f") \
     LINE("56:") \
@@ -252,14 +266,13 @@
     LINE("str r6, [sp, #DIVISOR]") \
     HALVES \
     LIGHT \
-    VALUES(DEPTH_OF) \
-    NUMERATORS \
+    DEPTH_NUMERATORS \
     DEPTH_AT \
     FAR_GRADIENTS("64f", "mov r8, r7", "DEPTH_DY") \
     LINE("mov r12, r5") \
     END \
     LINE("b 32b") \
-    LINE("77: add r0, sp, #X1")     /* left to C */ \
+    LINE("77: add r0, sp, #CORNER0")     /* left to C */ \
     LINE("movs r1, #" CALL) \
     LINE("bl small_thumb1_far") \
     LINE("add r7, sp, #FAR_DEPTH") \
@@ -327,8 +340,7 @@
 
 /* Likewise of light, |n| < 2^15. */
 #define FAR_LIGHTS \
-    VALUES(LIGHT_OF) \
-    NUMERATORS \
+    LIGHT_NUMERATORS \
     NUMERATORS_SHORT \
     LIGHT_AT \
     FAR_GRADIENTS("63f", "str r7, [sp, #FAR_LIGHT_DX]", "LIGHT_DY") \
