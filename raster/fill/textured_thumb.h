@@ -3,12 +3,8 @@
 #ifndef TUILE_FILL_TEXTURED_THUMB_H
 #define TUILE_FILL_TEXTURED_THUMB_H
 
-#include "../assembly.h"
 #include "../frame/frame.h"
 #include "small.h"
-
-/* Thumb-2 has all levels of a texture at hand, and goes from source to source; Thumb-1 has two levels. */
-#if ASSEMBLY_THUMB2
 
 /* Of a level: as in textured_level_t. */
 typedef struct textured_run_level {
@@ -18,17 +14,6 @@ typedef struct textured_run_level {
 } textured_run_level_t;
 
 enum { TEXTURED_RUN_LEVELS = TEXTURED_FRACTION }; /* no more take the fast way: their larger side is 2^8 ... 2 */
-
-#else
-
-typedef struct textured_run_level {
-    uint32_t from_corner, always, upper;
-    uint32_t pixels_up; /* textured_material_t */
-    uint32_t lower, up, down, t_unit, s_unit;
-    uint32_t unused;
-} textured_run_level_t;
-
-#endif
 
 /* What the loop reads, and where it has come to. The assembly copies all but the place, and what is behind it, to its stack. */
 typedef struct textured_run {
@@ -40,7 +25,7 @@ typedef struct textured_run {
     uint32_t limit; /* the loop ends at the record of this number, or at the end of the list */
     const uint8_t *arena_end;
     uint32_t record_bytes;
-    uint32_t source; /* as t->textured_source: that of the faces; Thumb-2: out too */
+    uint32_t source; /* as t->textured_source: that of the faces; out too */
     uint32_t known;  /* not 0: they are short and inside the tile's columns */
     const vertex_t *vertices;
     const uint8_t *texcoords; /* of slot 0 */
@@ -48,10 +33,9 @@ typedef struct textured_run {
     int32_t height;           /* rows */
     uint16_t *depth;          /* of the pixel in the tile's first row and in column 0 of the window */
     int32_t stride;           /* bytes */
-#if ASSEMBLY_THUMB2
-    uint32_t across;   /* textured_material_t: its own, less 4 */
-    uint32_t one;      /* its own, more 4 */
-    uint32_t log2_one; /* uv_bits */
+    uint32_t across;          /* textured_material_t: its own, less 4 */
+    uint32_t one;             /* its own, more 4 */
+    uint32_t log2_one;        /* uv_bits */
     uint32_t pixels_up;
     uint32_t upper, lower, always, up, down, t_unit, s_unit, from_corner; /* textured_run_level_t: of the current level */
     int32_t s_inside;
@@ -62,18 +46,6 @@ typedef struct textured_run {
     textured_run_level_t levels[TEXTURED_RUN_LEVELS + 1]; /* from number `first_level` on, one behind the last wanted at most; such
                                                            * as are not made have lower 31, always 0; upper ends at 31 */
     uint32_t first_level;
-#else
-    int32_t s_inside;           /* textured_material_t */
-    uint32_t across;            /* its own, less 4 */
-    uint32_t one;               /* its own, more 4 */
-    uint32_t log2_one;          /* uv_bits */
-    textured_run_level_t level; /* `mask` and `texels` belong to it */
-    int32_t left, width;        /* small_tile_t */
-    textured_run_level_t other; /* another one that faces may want; */
-    uint32_t other_mask;        /* its own */
-    const void *other_texels;
-    small_place_t place;
-#endif
 } textured_run_t;
 
 /* What rounds red, blue and, by its low half, green. The pixels of a row are counted in the bits from 22 on, less 1. */
@@ -81,8 +53,8 @@ typedef struct textured_run {
 
 /* Draws faces from run->place.list on with light at the corners, until it meets one that it leaves to the caller: behind the limit,
  * no triangle, of another source, or a level that is none of those at hand, not short, not inside the tile's columns, or one that
- * textured_map_make looks at twice. Thumb-2: another source of the same instance and material, without colours and attributes,
- * goes; and so does any face inside that covers no centre, which counts as drawn. */
+ * textured_map_make looks at twice. Another source of the same instance and material, without colours and attributes, goes.
+ * Thumb-2: and so does any face inside that covers no centre, which counts as drawn. */
 void textured_thumb(textured_run_t *run);
 
 #endif

@@ -24,14 +24,13 @@
 
 #include "textured_thumb1_set_up.h"
 
-static __attribute__((noinline, used)) void textured_thumb_far(textured_far_t *face) {
+static __attribute__((noinline, used)) void textured_thumb_far(textured_far_t *face, int32_t to_x, int32_t to_y) {
     const small_corners_t corners = {0, 0, face->x1, face->y1, face->x2, face->y2};
     const vertex_t v0 = {0, 0, face->depth_light[0]};
     const int32_t z0 = (int32_t)(face->depth_light[0] >> 8), light0 = (int32_t)(face->depth_light[0] & 0xff);
     const triangle_gradients_t g = small_gradients_exact(
         &corners, (int32_t)(face->depth_light[1] >> 8) - z0, (int32_t)(face->depth_light[2] >> 8) - z0,
         (int32_t)(face->depth_light[1] & 0xff) - light0, (int32_t)(face->depth_light[2] & 0xff) - light0, true);
-    const small_int_t to_x = (small_int_t)face->to_x, to_y = (small_int_t)face->to_y;
     face->depth_light[0] = (uint32_t)small_at(g.depth, triangle_depth_of(&v0), to_x, to_y);
     face->depth_light[1] = (uint32_t)g.depth.dx;
     face->depth_light[2] = (uint32_t)g.depth.dy;
@@ -52,14 +51,14 @@ static __attribute__((noinline, used)) void textured_thumb_far(textured_far_t *f
     LINE("lsls r2, r2, #1") \
     LINE("ldrh r2, [r5, r2]")
 
-/* ENTRY: r7 as the row below leaves it, r2 and r4 first column and the one behind the last. TEXEL: from an index in r2 to a colour
+/* ENTRY: r7 as the step to a row leaves it, r2 and r4 its first column and the one behind its last, r6 from where all is to r2. TEXEL: from an index in r2 to a colour
  * there, by the texels in r5. */
 #define ROWS(ENTRY, TEXEL) \
     UNIFIED \
-    LINE(ENTRY "32: ldr r6, [sp, #COLUMN]") \
+    LINE("32: ldr r6, [sp, #COLUMN]") \
     LINE("str r4, [sp, #COLUMN]") \
     LINE("subs r6, r2, r6") \
-    LINE("lsls r5, r6, #1") \
+    LINE(ENTRY "lsls r5, r6, #1") \
     LINE("adds r0, r0, r5") \
     LINE("subs r4, r4, r2") \
     LINE("lsls r4, r4, #1") \
@@ -157,6 +156,8 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         FRAME
         ENTER
 
+        LINE("86: b 87f")
+
         /* to the next face */
         LINE("10: ldr r0, [sp, #LIST + 4]")
         LINE("uxth r0, r0")
@@ -182,8 +183,8 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("orrs r5, r6")
         LINE("ldr r6, [sp, #SOURCE]")
         LINE("cmp r5, r6")
-        LINE("bne 90b")
-        LINE("lsls r7, r4, #24")
+        LINE("bne 86b")
+        LINE("17: lsls r7, r4, #24")
         LINE("beq 90b")                     /* no triangle */
 
         /* r4 s1, r5 s2, r6 t1, r7 t2, r0 at least how far they go */
@@ -249,15 +250,14 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("ldmia r7!, {r2, r3}")
         LINE("ldmia r6!, {r4, r5}")
         LINE("add r6, sp, #LIGHTS")
-        LINE("stmia r6!, {r1, r3, r5}")
+        LINE("stmia r6!, {r3, r5}")
 
         /* affine? */
-        LINE("lsrs r6, r1, #8")
+        LINE("lsrs r7, r1, #8")
         LINE("lsrs r3, r3, #8")
-        LINE("subs r3, r3, r6")
+        LINE("subs r3, r3, r7")
         LINE("lsrs r5, r5, #8")
-        LINE("subs r5, r5, r6")
-        LINE("add r6, sp, #DEPTH_LIGHT")
+        LINE("subs r5, r5, r7")
         LINE("stmia r6!, {r1, r3, r5}")
         LINE("asrs r6, r3, #31")
         LINE("eors r3, r6")
@@ -286,19 +286,8 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("subs r2, r2, r0")
         LINE("sxth r4, r4")
         LINE("subs r4, r4, r0")
-        LINE("ldr r1, [sp, #KNOWN]")
-        LINE("cmp r1, #0")
-        LINE("beq 80f")
-        LINE("12: add r7, sp, #CORNERS")
+        LINE("add r7, sp, #CORNERS")
         LINE("stmia r7!, {r2-r5}")
-        LINE("movs r7, r4")
-        LINE("muls r7, r3, r7")
-        LINE("movs r1, r2")
-        LINE("muls r1, r5, r1")
-        LINE("subs r7, r7, r1")
-        LINE("cmp r7, #8")
-        LINE("blt 88f")
-        LINE("str r7, [sp, #AREA]")
 
         /* the first centre */
         LINE("ldr r1, [sp, #TOP]")
@@ -329,22 +318,29 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("subs r7, r7, r0")
         LINE("mov r8, r7")
 
-        /* the level's? */
-        LINE("ldr r7, [sp, #AREA]")
-        LINE("ldr r0, [sp, #LEVEL + PIXELS_UP]")
+        /* large enough, and of the level? */
+        LINE("movs r7, r4")
+        LINE("muls r7, r3, r7")
+        LINE("movs r0, r2")
+        LINE("muls r0, r5, r0")
+        LINE("subs r7, r7, r0")
+        LINE("str r7, [sp, #AREA]")
+        LINE("ldr r0, [sp, #LEAST_AREA]")
+        LINE("cmp r7, r0")
+        LINE("blt 80f")
+        LINE("81: ldr r0, [sp, #PIXELS_UP]")
         LINE("lsls r7, r0")
-        LINE("mov r11, r7")
-        LINE("mov r7, r9")
-        LINE("ldr r0, [sp, #LEVEL + UPPER]")
-        LINE("lsrs r7, r0")
-        LINE("cmp r7, r11")
+        LINE("mov r6, r9")
+        LINE("ldr r0, [sp, #UPPER]")
+        LINE("lsrs r6, r0")
+        LINE("cmp r6, r7")
         LINE("bhi 91f")
-        LINE("mov r7, r9")
-        LINE("ldr r0, [sp, #LEVEL + LOWER]")
-        LINE("lsrs r7, r0")
-        LINE("ldr r0, [sp, #LEVEL + ALWAYS]")
-        LINE("orrs r7, r0")
-        LINE("cmp r7, r11")
+        LINE("mov r6, r9")
+        LINE("ldr r0, [sp, #LOWER]")
+        LINE("lsrs r6, r0")
+        LINE("ldr r0, [sp, #ALWAYS]")
+        LINE("orrs r6, r0")
+        LINE("cmp r6, r7")
         LINE("bls 91f")
         LINE("14: cmp r3, r5")
         LINE("blt 15f")
@@ -357,14 +353,16 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
 
         IS_SMALL
         OTHER_LEVEL
+        OTHER_SOURCE
         REACHES_BELOW);
 
     __asm__ volatile(
         UNIFIED
         LINE("15:")
-        EDGES("r2", "r3", "r4", "r5", "r2", "r4", "r3", "r5")
+        EDGES("r2", "r3", "r4", "r5", "r2", "r4", "r3", "r5", "50f")
+        LINE("50: b 51f")
         LINE("40:")
-        EDGES("r4", "r5", "r2", "r3", "r3", "r5", "r2", "r4")
+        EDGES("r4", "r5", "r2", "r3", "r3", "r5", "r2", "r4", "51f")
 
         /* the first row that is not empty */
         LINE("51: add r7, sp, #BELOW")
@@ -391,19 +389,16 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         MAP_OF_FACE
 
         /* depths near one another? */
-        LINE("add r0, sp, #DEPTH_LIGHT + 4")
-        LINE("ldmia r0!, {r6, r7}")
-        LINE("movs r0, #1")
-        LINE("lsls r0, r0, #17")
-        LINE("adds r1, r6, r0")
-        LINE("adds r0, r7, r0")
+        LINE("add r0, sp, #DEPTHS")
+        LINE("ldmia r0!, {r2-r7}")          /* and corners */
+        LINE("ldr r0, [sp, #NEAR]")
+        LINE("adds r1, r2, r0")
+        LINE("adds r0, r3, r0")
         LINE("orrs r0, r1")
         LINE("lsrs r0, r0, #18")
         LINE("beq 61f")
         LINE("b 71f")
-        LINE("61: add r0, sp, #CORNERS")
-        LINE("ldmia r0!, {r2-r5}")
-
+        LINE("61:")
         DEPTH_OF_FACE
         LIGHT_OF_FACE
         LINE("58: ldr r0, [sp, #DOWN]")
@@ -411,20 +406,16 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("bne 72f")
 
         /* rows */
-        LINE("59: movs r0, #0x21")          /* 0x10420 */
-        LINE("lsls r0, r0, #5")
-        LINE("movs r2, #1")
-        LINE("lsls r2, r2, #16")
-        LINE("adds r0, r0, r2")
+        LINE("59: ldr r0, [sp, #ROUND]")
         LINE("mov lr, r0")
-        LINE("add r7, sp, #COLOUR")
-        LINE("movs r0, #0")
-        LINE("str r0, [sp, #COLUMN]")
         LINE("ldr r0, [sp, #FIRST]")
         LINE("ldr r2, [sp, #SIDES]")
         LINE("asrs r2, r2, #20")
         LINE("ldr r4, [sp, #SIDES + 4]")
         LINE("asrs r4, r4, #20")
+        LINE("str r4, [sp, #COLUMN]")
+        LINE("movs r6, r2")
+        LINE("add r7, sp, #COLOUR")
         LINE("ldr r5, [sp, #PALETTE]")
         LINE("cmp r5, #0")
         LINE("beq 62f")

@@ -6,21 +6,26 @@
 
 #include <stddef.h>
 
-/* A triangle whose depths are far apart, then its gradients. */
+/* Of area / 512, by how many places area is to be shifted to the right to be in 256 ... 511: fill/small_thumb1.c. */
+extern const uint8_t small_thumb1_shifts[512];
+
+/* A triangle whose depths are far apart, as it lies at the stack pointer, then its gradients. */
 typedef struct textured_far {
-    uint32_t to_x, to_y;
     uint32_t depth_light[3]; /* out: depth at the centre, dx, dy */
     int32_t x1, y1, x2, y2;
     uint32_t light, light_dx, light_dy; /* out */
 } textured_far_t;
 
-_Static_assert(offsetof(textured_far_t, x1) == 20 && sizeof(textured_far_t) == 48, "offsets in the assembly");
+_Static_assert(offsetof(textured_far_t, x1) == 12 && sizeof(textured_far_t) == 40, "offsets in the assembly");
 _Static_assert(offsetof(textured_run_t, palette) == 16 && offsetof(textured_run_t, source) == 32 &&
-                   offsetof(textured_run_t, s_inside) == 64 && offsetof(textured_run_t, level) == 80 &&
-                   offsetof(textured_run_t, left) == 120 && offsetof(textured_run_t, other) == 128 &&
-                   offsetof(textured_run_t, place) == 176 && sizeof(textured_run_level_t) == 40 &&
-                   offsetof(textured_run_level_t, lower) == 16 && offsetof(textured_run_level_t, s_unit) == 32,
+                   offsetof(textured_run_t, top) == 48 && offsetof(textured_run_t, pixels_up) == 76 &&
+                   offsetof(textured_run_t, s_inside) == 112 && offsetof(textured_run_t, place) == 132 &&
+                   offsetof(textured_run_t, levels) == 144 && sizeof(textured_run_level_t) == 40 &&
+                   offsetof(textured_run_level_t, always) == 8 && offsetof(textured_run_level_t, from_corner) == 28,
                "offsets in the assembly");
+_Static_assert(sizeof(source_slot_t) == 2 * sizeof(vertex_t) && offsetof(source_slot_t, instance) == 4 &&
+                   offsetof(source_slot_t, colours) == 6 && offsetof(source_slot_t, attributes) == 8,
+               "numbers in the assembly");
 _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && offsetof(record_t, d2) == 5 &&
                    offsetof(record_t, material) == 6 && offsetof(record_surface_t, source) == 8 && sizeof(vertex_t) == 8 &&
                    TRIANGLE_SMALL_DEPTH == 1 << 17 && TEXTURED_FRACTION == 8 && TEXTURED_BIAS == 1 << 25 && DIVIDE_TABLE == 512,
@@ -35,73 +40,79 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
 
 /* At the stack pointer, bytes. */
 #define FRAME \
-    LINE(".equ BELOW, 0")        /* rows below the bend, and of the part that is being filled */ \
+    LINE(".equ BELOW, 0")            /* rows below the bend, and of the part that is being filled */ \
     LINE(".equ ROWS, 4") \
-    LINE(".equ SIDES, 8")        /* left and right side, and their slopes */ \
+    LINE(".equ SIDES, 8")            /* left and right side, and their slopes */ \
     LINE(".equ DEPTH_DY, 24") \
     LINE(".equ LIGHT_DY, 28") \
     LINE(".equ MAP_DY, 32") \
-    LINE(".equ STRIDE, 36")      /* bytes */ \
-    LINE(".equ COLOUR, 40")      /* from a pixel's depth to its colour, bytes; and the mask */ \
-    LINE(".equ MASK, 44") \
-    LINE(".equ COLUMN, 48")      /* the column that all is at */ \
-    LINE(".equ FIELD, 52")       /* of green, 6 bits above its own place */ \
-    LINE(".equ NEXT_X, 56")      /* the side below the bend, a row before its first, and its slope */ \
-    LINE(".equ NEXT_SLOPE, 60") \
-    LINE(".equ TABLE, 64")       /* divide_table */ \
-    LINE(".equ START, 68")       /* small_start(0) */ \
-    LINE(".equ FIRST, 72")       /* address of depth in the face's first row and column */ \
-    LINE(".equ ROWS_LEFT, 76")   /* of the tile, from that row on */ \
-    LINE(".equ DOWN, 80")        /* rows from the top corner's down to the first one, and what lies above the centre then */ \
-    LINE(".equ TO_X, 84")        /* textured_far_t from here on */ \
-    LINE(".equ TO_Y, 88") \
-    LINE(".equ DEPTH_LIGHT, 92") /* of the first corner, then of the others, or their differences in depth */ \
-    LINE(".equ CORNERS, 104")    /* x1, y1, x2, y2 */ \
-    LINE(".equ COORDINATES, 120") /* s1, s2, t1, t2; behind gradients of depth and light no more */ \
-    LINE(".equ FIRST_COORDINATES, 136") \
-    LINE(".equ LIGHTS, 140")     /* of the three corners, as they are */ \
-    LINE(".equ OFFSETS, 152")    /* of vertices, 4 bytes for each */ \
-    LINE(".equ AREA, 164") \
-    LINE(".equ RECIPROCAL, 168") \
-    LINE(".equ FRACTION, 172")   /* of the reciprocal, over 2^16 */ \
-    LINE(".equ KEPT, OFFSETS")   /* three words, where depths are far apart */ \
-    LINE(".equ LIST, 176")       /* the face's record: number + 1, first word */ \
-    LINE(".equ RUN, 184")        /* textured_run_t */ \
-    LINE(".equ COUNT, 188") \
-    LINE(".equ END, 192") \
-    LINE(".equ LIGHT_HALF, 196") /* rounds light, and biases it */ \
-    LINE(".equ DEPTH_HALF, 200") \
-    LINE(".equ COPY, 204")       /* of the run */ \
-    LINE(".equ TEXELS, COPY + 4") \
-    LINE(".equ PALETTE, COPY + 16") \
-    LINE(".equ LIMIT, COPY + 20") \
-    LINE(".equ ARENA, COPY + 24") \
-    LINE(".equ RECORD_BYTES, COPY + 28") \
-    LINE(".equ SOURCE, COPY + 32") \
-    LINE(".equ KNOWN, COPY + 36") \
-    LINE(".equ VERTICES, COPY + 40") \
-    LINE(".equ TEXCOORDS, COPY + 44") \
-    LINE(".equ TOP, COPY + 48") \
-    LINE(".equ HEIGHT, COPY + 52") \
-    LINE(".equ DEPTH, COPY + 56") \
-    LINE(".equ S_INSIDE, COPY + 64") \
-    LINE(".equ ACROSS, COPY + 68") \
-    LINE(".equ ONE, COPY + 72") \
-    LINE(".equ LOG2_ONE, COPY + 76") \
-    LINE(".equ LEVEL, COPY + 80") \
-    LINE(".equ LEFT, COPY + 120")     /* and width */ \
-    LINE(".equ OTHER, COPY + 128")    /* and mask, texels */ \
-    LINE(".equ RUN_LIST, 176") \
-    LINE(".equ FRAME, COPY + 176") \
-    LINE(".equ FROM_CORNER, 0")       /* of a level */ \
-    LINE(".equ ALWAYS, 4") \
-    LINE(".equ UPPER, 8") \
-    LINE(".equ PIXELS_UP, 12") \
-    LINE(".equ LOWER, 16") \
-    LINE(".equ UP, 20") \
-    LINE(".equ LEVEL_DOWN, 24") \
-    LINE(".equ T_UNIT, 28") \
-    LINE(".equ S_UNIT, 32")
+    LINE(".equ STRIDE, 36")          /* bytes */ \
+    LINE(".equ COLOUR, 40")          /* from a pixel's depth to its colour, bytes */ \
+    LINE(".equ MASK, 44")            /* of the level */ \
+    LINE(".equ TEXELS, 48") \
+    LINE(".equ COLUMN, 52")          /* the column that all is at */ \
+    LINE(".equ UPPER, 56")           /* of the level, as textured_run_level_t has it */ \
+    LINE(".equ LOWER, 60") \
+    LINE(".equ ALWAYS, 64") \
+    LINE(".equ UP, 68") \
+    LINE(".equ LEVEL_DOWN, 72") \
+    LINE(".equ T_UNIT, 76") \
+    LINE(".equ S_UNIT, 80") \
+    LINE(".equ FROM_CORNER, 84") \
+    LINE(".equ NEXT_X, 88")          /* the side below the bend, a row before its first, and its slope */ \
+    LINE(".equ NEXT_SLOPE, 92") \
+    LINE(".equ FIRST, 96")           /* address of depth in the face's first row and column */ \
+    LINE(".equ ROWS_LEFT, 100")      /* of the tile, from that row on */ \
+    LINE(".equ DOWN, 104")           /* rows from the top corner's down to the first one, and what lies above the centre then */ \
+    LINE(".equ TO_X, 108") \
+    LINE(".equ TO_Y, 112") \
+    LINE(".equ LIGHTS, 116")         /* depth and light of the second and third corner */ \
+    LINE(".equ DEPTH_LIGHT, 124")    /* of the first one; textured_far_t */ \
+    LINE(".equ DEPTHS, 128")         /* of the others, from the first one's */ \
+    LINE(".equ CORNERS, 136")        /* x1, y1, x2, y2 */ \
+    LINE(".equ COORDINATES, 152")    /* s1, s2, t1, t2 */ \
+    LINE(".equ FIRST_COORDINATES, 168") \
+    LINE(".equ OFFSETS, 172")        /* of vertices, 4 bytes for each */ \
+    LINE(".equ AREA, 184") \
+    LINE(".equ RECIPROCAL, 188") \
+    LINE(".equ FRACTION, 192")       /* of the reciprocal, over 2^16 */ \
+    LINE(".equ LIST, 196")           /* number + 1 of the face's record, and its first word */ \
+    LINE(".equ RUN, 204")            /* textured_run_t */ \
+    LINE(".equ COUNT, 208") \
+    LINE(".equ END, 212") \
+    LINE(".equ LEAST_AREA, 216")     /* of faces that are not to be looked at: 8, or where they are not known any is less */ \
+    LINE(".equ TABLE, 220")          /* divide_table, small_thumb1_shifts */ \
+    LINE(".equ SHIFTS, 224") \
+    LINE(".equ START, 228")          /* small_start(0) */ \
+    LINE(".equ ONES, 232")           /* 2^31 - 1 */ \
+    LINE(".equ NEAR, 236")           /* TRIANGLE_SMALL_DEPTH */ \
+    LINE(".equ ROUND, 240")          /* of colours, red, green and blue */ \
+    LINE(".equ FIELD, 244")          /* of green, 6 bits above its own place */ \
+    LINE(".equ PALETTE, 248")        /* of the run, as all to PIXELS_UP */ \
+    LINE(".equ LIMIT, 252") \
+    LINE(".equ ARENA, 256") \
+    LINE(".equ RECORD_BYTES, 260") \
+    LINE(".equ SOURCE, 264") \
+    LINE(".equ KNOWN, 268") \
+    LINE(".equ VERTICES, 272") \
+    LINE(".equ TEXCOORDS, 276") \
+    LINE(".equ TOP, 280") \
+    LINE(".equ HEIGHT, 284") \
+    LINE(".equ DEPTH, 288") \
+    LINE(".equ RUN_STRIDE, 292") \
+    LINE(".equ ACROSS, 296") \
+    LINE(".equ ONE, 300") \
+    LINE(".equ LOG2_ONE, 304") \
+    LINE(".equ PIXELS_UP, 308") \
+    LINE(".equ S_INSIDE, 312")       /* and as all to the width */ \
+    LINE(".equ INSTANCE, 316") \
+    LINE(".equ MODEL_TEXCOORDS, 320") \
+    LINE(".equ LEFT, 324")           /* and width */ \
+    LINE(".equ KEPT, OFFSETS")           /* three words, where depths are far apart */ \
+    LINE(".equ FRAME, 332") \
+    LINE(".equ RUN_SOURCE, 32") \
+    LINE(".equ RUN_LIST, 132") \
+    LINE(".equ RUN_LEVELS, 144")
 
 /* The run into the frame, and back to C, the face at LIST undrawn. r0: the first face. */
 #define ENTER \
@@ -113,51 +124,49 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("push {r4-r7}") \
     LINE("sub sp, #FRAME") \
     LINE("str r0, [sp, #RUN]") \
-    LINE("movs r1, #0x3f")              /* 2^20 - 64 = 0x3fff * 64 */ \
-    LINE("lsls r1, r1, #8") \
-    LINE("adds r1, #0xff") \
-    LINE("lsls r1, r1, #6") \
-    LINE("str r1, [sp, #START]") \
-    LINE("movs r1, #0x3f") \
-    LINE("lsls r1, r1, #11") \
-    LINE("str r1, [sp, #FIELD]") \
-    LINE("movs r1, #0x28") \
-    LINE("lsls r1, r1, #20") \
-    LINE("str r1, [sp, #LIGHT_HALF]") \
-    LINE("movs r1, #0x80") \
-    LINE("lsls r1, r1, #8") \
-    LINE("str r1, [sp, #DEPTH_HALF]") \
-    LINE("ldr r1, 1f") \
-    LINE("str r1, [sp, #TABLE]") \
-    LINE("b 2f") \
-    LINE(".align 2") \
-    LINE("1: .word divide_table") \
-    LINE("2: add r1, sp, #COPY") \
-    LINE("movs r4, #7") \
-    LINE("mov r8, r4") \
-    LINE("3: ldmia r0!, {r2-r7}") \
-    LINE("stmia r1!, {r2-r7}") \
-    LINE("mov r2, r8") \
-    LINE("subs r2, #1") \
-    LINE("mov r8, r2") \
-    LINE("bne 3b") \
-    LINE("ldmia r0!, {r2, r3, r4, r5, r6}") /* the last two; list, end, count */ \
-    LINE("stmia r1!, {r2, r3}") \
-    LINE("str r5, [sp, #END]") \
-    LINE("str r6, [sp, #COUNT]") \
-    LINE("ldr r0, [sp, #COPY + 60]") \
-    LINE("str r0, [sp, #STRIDE]") \
-    LINE("ldr r0, [sp, #COPY + 8]") \
-    LINE("adds r0, #2") \
-    LINE("str r0, [sp, #COLOUR]") \
-    LINE("ldr r0, [sp, #COPY]") \
-    LINE("str r0, [sp, #MASK]") \
-    LINE("movs r0, r4") \
+    LINE("adr r1, 1f") \
+    LINE("ldmia r1!, {r2-r4}") \
+    LINE("add r5, sp, #TABLE") \
+    LINE("stmia r5!, {r2-r4}") \
+    LINE("ldmia r1!, {r2-r4, r6}") \
+    LINE("stmia r5!, {r2-r4, r6}") \
+    LINE("ldr r1, [r0, #8]") \
+    LINE("adds r1, #2") \
+    LINE("str r1, [sp, #COLOUR]") \
+    LINE("adds r0, #16") \
+    LINE("ldmia r0!, {r1-r4, r6, r7}") \
+    LINE("stmia r5!, {r1-r4, r6, r7}") \
+    LINE("ldmia r0!, {r1-r4, r6, r7}") \
+    LINE("stmia r5!, {r1-r4, r6, r7}") \
+    LINE("ldmia r0!, {r1-r4}") \
+    LINE("stmia r5!, {r1-r4}") \
+    LINE("adds r0, #32") \
+    LINE("ldmia r0!, {r1-r4, r6, r7}")      /* and list */ \
+    LINE("stmia r5!, {r1-r4, r6}") \
+    LINE("ldmia r0!, {r1, r2}") \
+    LINE("str r1, [sp, #END]") \
+    LINE("str r2, [sp, #COUNT]") \
+    LINE("ldr r1, [sp, #RUN_STRIDE]") \
+    LINE("str r1, [sp, #STRIDE]") \
+    LINE("movs r1, #31")                    /* no level */ \
+    LINE("str r1, [sp, #UPPER]") \
+    LINE("str r1, [sp, #LOWER]") \
+    LINE("movs r1, #0") \
+    LINE("str r1, [sp, #ALWAYS]") \
+    LINE("movs r0, r7") \
+    LINE("movs r1, #8") \
+    LINE("ldr r2, [sp, #KNOWN]") \
+    LINE("cmp r2, #0") \
+    LINE("bne 2f") \
+    LINE("ldr r1, [sp, #ONES]") \
+    LINE("2: str r1, [sp, #LEAST_AREA]") \
     LINE("b 11f") \
     LINE("90: ldr r0, [sp, #RUN]") \
     LINE("ldr r1, [sp, #LIST]") \
     LINE("ldr r2, [sp, #END]") \
     LINE("ldr r3, [sp, #COUNT]") \
+    LINE("ldr r4, [sp, #SOURCE]") \
+    LINE("str r4, [r0, #RUN_SOURCE]") \
     LINE("adds r0, #RUN_LIST") \
     LINE("stmia r0!, {r1, r2, r3}") \
     LINE("add sp, #FRAME") \
@@ -166,78 +175,106 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("mov r9, r5") \
     LINE("mov r10, r6") \
     LINE("mov r11, r7") \
-    LINE("pop {r4-r7, pc}")
+    LINE("pop {r4-r7, pc}") \
+    LINE(".align 2") \
+    LINE("1: .word divide_table, small_thumb1_shifts, 0xfffc0, 0x7fffffff, 0x20000, 0x10420, 0x1f800")
 
-/* Nothing is known of the face: is it short, and inside the tile's columns? */
+/* 80: its area, r7, is too small, or nothing is known of the face: is it short, and inside the tile's columns? */
 #define IS_SMALL \
-    LINE("80: movs r7, #255") \
+    LINE("80: cmp r7, #8") \
+    LINE("blt 88b") \
+    LINE("ldr r0, [sp, #KNOWN]") \
+    LINE("cmp r0, #0") \
+    LINE("bne 88b") \
+    LINE("movs r7, #255") \
     LINE("lsls r7, r7, #2") \
     LINE("adds r7, #2")                 /* 1022 */ \
     LINE("mov r11, r7") \
     LINE("lsrs r7, r7, #1") \
-    LINE("adds r1, r2, r7") \
-    LINE("cmp r1, r11") \
+    LINE("adds r6, r2, r7") \
+    LINE("cmp r6, r11") \
     LINE("bhi 88b") \
-    LINE("adds r1, r4, r7") \
-    LINE("cmp r1, r11") \
+    LINE("adds r6, r4, r7") \
+    LINE("cmp r6, r11") \
     LINE("bhi 88b") \
-    LINE("subs r1, r2, r4") \
-    LINE("adds r1, r1, r7") \
-    LINE("cmp r1, r11") \
+    LINE("subs r6, r2, r4") \
+    LINE("adds r6, r6, r7") \
+    LINE("cmp r6, r11") \
     LINE("bhi 88b") \
-    LINE("movs r1, r3") \
-    LINE("orrs r1, r5") \
-    LINE("lsrs r1, r1, #9") \
+    LINE("movs r6, r3") \
+    LINE("orrs r6, r5") \
+    LINE("lsrs r6, r6, #9") \
     LINE("bne 88b") \
-    LINE("ldr r7, [sp, #LEFT]") \
-    LINE("subs r7, r0, r7") \
-    LINE("ldr r1, [sp, #LEFT + 4]") \
-    LINE("cmp r7, r1") \
-    LINE("bhs 88b") \
-    LINE("adds r7, r7, r2") \
-    LINE("cmp r7, r1") \
-    LINE("bhs 88b") \
-    LINE("subs r7, r7, r2") \
-    LINE("adds r7, r7, r4") \
-    LINE("cmp r7, r1") \
-    LINE("blo 12b") \
-    LINE("b 88b")
+    LINE("ldr r0, [sp, #OFFSETS]")      /* x0 */ \
+    LINE("lsls r0, r0, #1") \
+    LINE("ldr r7, [sp, #VERTICES]") \
+    LINE("ldr r7, [r7, r0]") \
+    LINE("sxth r7, r7") \
+    LINE("ldr r0, [sp, #LEFT]") \
+    LINE("subs r7, r7, r0") \
+    LINE("ldr r6, [sp, #LEFT + 4]") \
+    LINE("cmp r7, r6") \
+    LINE("bhs 83f") \
+    LINE("adds r0, r7, r2") \
+    LINE("cmp r0, r6") \
+    LINE("bhs 83f") \
+    LINE("adds r0, r7, r4") \
+    LINE("cmp r0, r6") \
+    LINE("bhs 83f") \
+    LINE("ldr r7, [sp, #AREA]") \
+    LINE("b 81b") \
+    LINE("83: b 88b")
 
-/* Another level: the other one? Then they change places. */
+/* 91: another level, the first that is not too fine: does the run have it? r7 pixels, r9 texels. */
 #define OTHER_LEVEL \
-    LINE("91: mov r7, r9") \
-    LINE("ldr r0, [sp, #OTHER + UPPER]") \
-    LINE("lsrs r7, r0") \
-    LINE("cmp r7, r11") \
-    LINE("bhi 88b") \
-    LINE("mov r7, r9") \
-    LINE("ldr r0, [sp, #OTHER + LOWER]") \
-    LINE("lsrs r7, r0") \
-    LINE("ldr r0, [sp, #OTHER + ALWAYS]") \
-    LINE("orrs r7, r0") \
-    LINE("cmp r7, r11") \
-    LINE("bls 88b") \
-    LINE("push {r1-r5}") \
-    LINE("add r0, sp, #20 + LEVEL") \
-    LINE("add r1, sp, #20 + OTHER") \
-    LINE("movs r7, #5") \
-    LINE("92: ldmia r0!, {r2, r3}") \
-    LINE("ldmia r1!, {r4, r5}") \
-    LINE("subs r0, #8") \
-    LINE("subs r1, #8") \
-    LINE("stmia r0!, {r4, r5}") \
-    LINE("stmia r1!, {r2, r3}") \
-    LINE("subs r7, #1") \
-    LINE("bne 92b") \
-    LINE("ldr r2, [sp, #20 + MASK]") \
-    LINE("ldr r3, [sp, #20 + TEXELS]") \
-    LINE("ldmia r1!, {r4, r5}") \
-    LINE("str r4, [sp, #20 + MASK]") \
-    LINE("str r5, [sp, #20 + TEXELS]") \
-    LINE("subs r1, #8") \
-    LINE("stmia r1!, {r2, r3}") \
-    LINE("pop {r1-r5}") \
+    LINE("91: ldr r0, [sp, #RUN]") \
+    LINE("adds r0, #RUN_LEVELS - 40") \
+    LINE("92: adds r0, #40") \
+    LINE("mov r6, r9") \
+    LINE("ldr r1, [r0]") \
+    LINE("lsrs r6, r1") \
+    LINE("cmp r6, r7") \
+    LINE("bhi 92b") \
+    LINE("mov r6, r9") \
+    LINE("ldmia r0!, {r1-r5}") \
+    LINE("lsrs r6, r2") \
+    LINE("orrs r6, r3") \
+    LINE("cmp r6, r7") \
+    LINE("bls 83b") \
+    LINE("add r7, sp, #UPPER") \
+    LINE("stmia r7!, {r1-r5}") \
+    LINE("ldmia r0!, {r1-r5}") \
+    LINE("stmia r7!, {r1-r3}") \
+    LINE("str r4, [sp, #MASK]") \
+    LINE("str r5, [sp, #TEXELS]") \
+    LINE("add r7, sp, #CORNERS") \
+    LINE("ldmia r7!, {r2-r5}") \
+    LINE("ldr r1, [sp, #DOWN]") \
     LINE("b 14b")
+
+/* 87: another source, r5, with the material in its upper half: is it of the same instance and material, and without colours and
+ * attributes? */
+#define OTHER_SOURCE \
+    LINE("87: eors r6, r5") \
+    LINE("lsrs r6, r6, #16") \
+    LINE("bne 83b") \
+    LINE("uxth r6, r5") \
+    LINE("lsls r7, r6, #3") \
+    LINE("ldr r1, [sp, #VERTICES]") \
+    LINE("adds r7, r7, r1") \
+    LINE("ldmia r7!, {r0, r1}")         /* source_slot_t */ \
+    LINE("ldrh r7, [r7]") \
+    LINE("ldr r2, [sp, #INSTANCE]") \
+    LINE("eors r1, r2") \
+    LINE("orrs r1, r7") \
+    LINE("bne 83b") \
+    LINE("subs r0, r0, r6") \
+    LINE("lsls r0, r0, #2") \
+    LINE("ldr r1, [sp, #MODEL_TEXCOORDS]") \
+    LINE("adds r0, r0, r1") \
+    LINE("str r0, [sp, #TEXCOORDS]") \
+    LINE("str r5, [sp, #SOURCE]") \
+    LINE("b 17b")
 
 /* 29: onto the list of those that reach below; r0 and r7 are free. */
 #define REACHES_BELOW \

@@ -21,8 +21,8 @@
 
 /* The sides of a triangle whose mid corner is (XM, YM), its lowest one (XL, YL): r0 rows below the bend, r1 those above, or of the
  * only part, r2, r3 left and right side in the first row, r4, r5 their slopes; r12 -rows. The side of the bend is BX, BS, the other
- * one OX, OS. r1: to_y, r8: start. */
-#define EDGES(XM, YM, XL, YL, BX, BS, OX, OS) \
+ * one OX, OS. r1: to_y, r8: start. FILLED: where to then. */
+#define EDGES(XM, YM, XL, YL, BX, BS, OX, OS, FILLED) \
     SLOPE("r0", XL, YL) \
     LINE("mov r9, r0") \
     LINE("muls r0, r1, r0") \
@@ -90,7 +90,7 @@
     LINE("27: asrs r6, r2, #20") \
     LINE("asrs r7, r3, #20") \
     LINE("cmp r6, r7") \
-    LINE("blt 50f") \
+    LINE("blt " FILLED) \
     LINE("adds r2, r2, r4")                 /* an empty row */ \
     LINE("adds r3, r3, r5") \
     LINE("subs r1, r1, #1") \
@@ -102,20 +102,17 @@
     LINE("ldr " BS ", [sp, #NEXT_SLOPE]") \
     LINE("adds " BX ", " BX ", " BS) \
     LINE("b 27b") \
-    LINE("28: b 10b") \
-    LINE("50: b 51f")
+    LINE("28: b 10b")
 
 
 /* To r4: reciprocal of the area (divide_area_by_table). */
 #define RECIPROCAL \
     LINE("ldr r0, [sp, #AREA]") \
-    LINE("ldr r7, [sp, #TABLE]") \
     LINE("lsrs r1, r0, #9") \
     LINE("beq 60f") \
-    LINE("movs r2, #0") \
-    LINE("53: adds r2, #1") \
-    LINE("lsrs r1, r1, #1") \
-    LINE("bne 53b") \
+    LINE("ldr r7, [sp, #SHIFTS]") \
+    LINE("ldrb r2, [r7, r1]") \
+    LINE("ldr r7, [sp, #TABLE]") \
     LINE("movs r3, r0") \
     LINE("lsrs r3, r2") \
     LINE("lsls r3, r3, #2") \
@@ -125,8 +122,7 @@
     LINE("lsrs r4, r2") \
     LINE("movs r5, r4") \
     LINE("muls r5, r0, r5") \
-    LINE("mvns r6, r1")                 /* 2^31 - 1 */ \
-    LINE("lsrs r6, r6, #1") \
+    LINE("ldr r6, [sp, #ONES]") \
     LINE("subs r6, r6, r5") \
     LINE("asrs r5, r6, #8") \
     LINE("muls r5, r3, r5") \
@@ -142,18 +138,18 @@
     LINE("adds r4, r4, r5") \
     LINE("muls r5, r0, r5") \
     LINE("subs r6, r6, r5") \
-    LINE("b 55f") \
-    LINE("54: adds r4, #1") \
+    LINE("bmi 56f") \
+    LINE("54: cmp r6, r0") \
+    LINE("blt 57f") \
+    LINE("adds r4, #1") \
     LINE("subs r6, r6, r0") \
-    LINE("55: cmp r6, r0") \
-    LINE("bge 54b") \
-    LINE("cmp r6, #0") \
-    LINE("bge 57f") \
+    LINE("b 54b") \
     LINE("56: subs r4, #1") \
     LINE("adds r6, r6, r0") \
     LINE("bmi 56b") \
     LINE("b 57f") \
-    LINE("60: lsls r1, r0, #2")         /* below 512: the table's, less 1 for powers of two */ \
+    LINE("60: ldr r7, [sp, #TABLE]")    /* below 512: the table's, less 1 for powers of two */ \
+    LINE("lsls r1, r0, #2") \
     LINE("ldr r4, [r7, r1]") \
     LINE("subs r1, r0, #1") \
     LINE("ands r1, r0") \
@@ -161,18 +157,18 @@
     LINE("subs r4, #1") \
     LINE("57: str r4, [sp, #RECIPROCAL]")
 
-/* The product of a number of 28 bits and the reciprocal, whose halves are r1 and r2, over 2^19: it is NUMBER * 2^13 + LOW, NUMBER
+/* The product of a number of 28 bits and the reciprocal, whose halves are r1 and r3, over 2^19: it is NUMBER * 2^13 + LOW, NUMBER
  * then being the product of the upper halves, LOW that of all others. |LOW| < 2^26, since the area is 8 at least. T is free. */
 #define DEPTH_PRODUCT(NUMBER, LOW, T) \
     LINE("uxth " T ", " NUMBER) \
     LINE("asrs " NUMBER ", " NUMBER ", #16") \
-    LINE("movs " LOW ", r2") \
+    LINE("movs " LOW ", r3") \
     LINE("muls " LOW ", " T ", " LOW) \
     LINE("lsrs " LOW ", " LOW ", #16") \
     LINE("muls " T ", r1, " T) \
     LINE("adds " LOW ", " LOW ", " T) \
     LINE("movs " T ", " NUMBER) \
-    LINE("muls " T ", r2, " T) \
+    LINE("muls " T ", r3, " T) \
     LINE("adds " LOW ", " LOW ", " T) \
     LINE("asrs " LOW ", " LOW ", #3") \
     LINE("muls " NUMBER ", r1, " NUMBER)
@@ -194,35 +190,35 @@
     LINE("asrs " U ", " U ", #16") \
     LINE("adcs " NUMBER ", " NUMBER ", " U)
 
-/* Two determinants of differences A, B over the corners in r2 ... r5: to RIGHT, and in place of A. */
-#define DETERMINANTS(RIGHT, A, B, T) \
+/* Two determinants of differences A, B over the corners (X1, Y1), (X2, Y2): to RIGHT, and in place of A. */
+#define DETERMINANTS(RIGHT, A, B, T, X1, Y1, X2, Y2) \
     LINE("movs " RIGHT ", " B) \
-    LINE("muls " RIGHT ", r3, " RIGHT) \
+    LINE("muls " RIGHT ", " Y1 ", " RIGHT) \
     LINE("movs " T ", " A) \
-    LINE("muls " T ", r5, " T) \
+    LINE("muls " T ", " Y2 ", " T) \
     LINE("subs " RIGHT ", " RIGHT ", " T) \
-    LINE("muls " A ", r4, " A) \
-    LINE("muls " B ", r2, " B) \
+    LINE("muls " A ", " X2 ", " A) \
+    LINE("muls " B ", " X1 ", " B) \
     LINE("subs " A ", " A ", " B)
 
 /* Steps: r5 and r6 of s, right and down, r8 and r7 of t. */
 #define MAP_OF_FACE \
     LINE("add r0, sp, #CORNERS") \
     LINE("ldmia r0!, {r2-r7}")          /* and s1, s2 */ \
-    DETERMINANTS("r0", "r6", "r7", "r1") \
-    LINE("ldr r1, [sp, #LEVEL + UP]") \
+    DETERMINANTS("r0", "r6", "r7", "r1", "r2", "r3", "r4", "r5") \
+    LINE("ldr r1, [sp, #UP]") \
     LINE("lsls r0, r1") \
     LINE("lsls r6, r1") \
     LINE("mov r8, r0") \
     LINE("mov r9, r6") \
     LINE("ldr r6, [sp, #COORDINATES + 8]") \
     LINE("ldr r7, [sp, #COORDINATES + 12]") \
-    DETERMINANTS("r0", "r6", "r7", "r1") \
-    LINE("ldr r1, [sp, #LEVEL + UP]") \
+    DETERMINANTS("r0", "r6", "r7", "r1", "r2", "r3", "r4", "r5") \
+    LINE("ldr r1, [sp, #UP]") \
     LINE("lsls r0, r1") \
     LINE("lsls r6, r1") \
     LINE("ldr r2, [sp, #RECIPROCAL]") \
-    LINE("ldr r1, [sp, #LEVEL + LEVEL_DOWN]") \
+    LINE("ldr r1, [sp, #LEVEL_DOWN]") \
     LINE("lsrs r2, r1") \
     LINE("lsrs r1, r2, #16") \
     LINE("uxth r2, r2") \
@@ -238,7 +234,7 @@
     LINE("asrs r4, r4, #16") \
     LINE("ldr r1, [sp, #S_INSIDE]") \
     LINE("ands r3, r1") \
-    LINE("ldr r1, [sp, #LEVEL + FROM_CORNER]") \
+    LINE("ldr r1, [sp, #FROM_CORNER]") \
     LINE("lsls r3, r3, #8") \
     LINE("asrs r3, r1") \
     LINE("lsls r4, r4, #8") \
@@ -257,11 +253,11 @@
     LINE("adds r1, r1, r2") \
     LINE("asrs r1, r1, #4") \
     LINE("adds r4, r4, r1") \
-    LINE("ldr r1, [sp, #LEVEL + T_UNIT]") \
+    LINE("ldr r1, [sp, #T_UNIT]") \
     LINE("muls r0, r1, r0") \
     LINE("muls r6, r1, r6") \
     LINE("muls r4, r1, r4") \
-    LINE("ldr r1, [sp, #LEVEL + S_UNIT]") \
+    LINE("ldr r1, [sp, #S_UNIT]") \
     LINE("muls r5, r1, r5") \
     LINE("muls r7, r1, r7") \
     LINE("muls r3, r1, r3") \
@@ -276,16 +272,15 @@
 #define DEPTH_AT_CORNER \
     LINE("ldr r3, [sp, #DEPTH_LIGHT]") \
     LINE("lsrs r1, r3, #8") \
+    LINE("adds r1, #128")               /* half */ \
     LINE("lsls r1, r1, #8") \
-    LINE("adds r0, r0, r1") \
-    LINE("ldr r1, [sp, #DEPTH_HALF]") \
     LINE("adds r0, r0, r1") \
     LINE("mov r12, r0")
 
 /* r6, r7: differences of light, r9 the first corner's, which is the lowest byte of r3. */
 #define LIGHT_DIFFERENCES \
     LINE("uxtb r3, r3") \
-    LINE("add r0, sp, #LIGHTS + 4") \
+    LINE("add r0, sp, #LIGHTS") \
     LINE("ldmia r0!, {r6, r7}") \
     LINE("uxtb r6, r6") \
     LINE("subs r6, r6, r3") \
@@ -306,34 +301,34 @@
     LINE("adds r0, r0, r6") \
     LINE("asrs r0, r0, #4") \
     LINE("adds r3, r3, r0") \
-    LINE("lsls r1, r1, #24") \
-    LINE("adds r3, r3, r1") \
-    LINE("ldr r1, [sp, #LIGHT_HALF]") \
+    LINE("lsls r1, r1, #1") \
+    LINE("adds r1, #5")                 /* half, and TEXTURED_BIAS */ \
+    LINE("lsls r1, r1, #23") \
     LINE("adds r3, r3, r1") \
     LINE("mov r1, r12")
 
 /* Depth, down in memory, right in r8, and at the first centre in r12. */
 #define DEPTH_OF_FACE \
-    DETERMINANTS("r0", "r6", "r7", "r1") \
-    LINE("ldr r2, [sp, #RECIPROCAL]") \
-    LINE("lsrs r1, r2, #16") \
-    LINE("uxth r2, r2") \
-    DEPTH_PRODUCT("r0", "r4", "r3") \
-    DEPTH_PRODUCT("r6", "r5", "r3") \
+    DETERMINANTS("r0", "r2", "r3", "r1", "r4", "r5", "r6", "r7") \
+    LINE("ldr r3, [sp, #RECIPROCAL]") \
+    LINE("lsrs r1, r3, #16") \
+    LINE("uxth r3, r3") \
+    DEPTH_PRODUCT("r0", "r4", "r6") \
+    DEPTH_PRODUCT("r2", "r5", "r6") \
     LINE("lsls r7, r0, #13") \
     LINE("adds r7, r7, r4") \
     LINE("mov r8, r7") \
-    LINE("lsls r7, r6, #13") \
+    LINE("lsls r7, r2, #13") \
     LINE("adds r7, r7, r5") \
     LINE("str r7, [sp, #DEPTH_DY]") \
     LINE("ldr r1, [sp, #TO_X]") \
-    LINE("ldr r2, [sp, #TO_Y]") \
+    LINE("ldr r3, [sp, #TO_Y]") \
     LINE("muls r0, r1, r0") \
-    LINE("muls r6, r2, r6") \
-    LINE("adds r0, r0, r6") \
+    LINE("muls r2, r3, r2") \
+    LINE("adds r0, r0, r2") \
     LINE("lsls r0, r0, #9") \
     LINE("muls r4, r1, r4") \
-    LINE("muls r5, r2, r5") \
+    LINE("muls r5, r3, r5") \
     LINE("adds r4, r4, r5") \
     LINE("asrs r4, r4, #4") \
     LINE("adds r0, r0, r4") \
@@ -345,7 +340,7 @@
     LIGHT_DIFFERENCES \
     LINE("add r0, sp, #CORNERS") \
     LINE("ldmia r0!, {r2-r5}") \
-    DETERMINANTS("r0", "r6", "r7", "r1") \
+    DETERMINANTS("r0", "r6", "r7", "r1", "r2", "r3", "r4", "r5") \
     LINE("ldr r1, [sp, #RECIPROCAL]") \
     LINE("lsrs r2, r1, #11") \
     LINE("lsls r1, r1, #21") \
@@ -368,8 +363,10 @@
 
 /* Where depths are far apart gradients are exact, as divide_scaled has them: the reciprocal's fraction, of which the upper half or
  * less is enough, brings the quotient close, and its rest, modulo 2^32, puts it right. With |depths| < 2^20 and an area of 16 at
- * least sums stay below 2^31; others are left to C. Comes back by 58, as DEPTH_OF_FACE and LIGHT_OF_FACE do. r6, r7: depths. */
+ * least sums stay below 2^31; others are left to C. Comes back by 58, as DEPTH_OF_FACE and LIGHT_OF_FACE do. r2, r3: depths. */
 #define FAR_FACE \
+    LINE("movs r6, r2") \
+    LINE("movs r7, r3") \
     LINE("movs r0, #1") \
     LINE("lsls r0, r0, #20") \
     LINE("adds r1, r6, r0") \
@@ -393,7 +390,7 @@
     LINE("str r2, [sp, #FRACTION]") \
     LINE("add r0, sp, #CORNERS") \
     LINE("ldmia r0!, {r2-r5}") \
-    DETERMINANTS("r0", "r6", "r7", "r1") \
+    DETERMINANTS("r0", "r6", "r7", "r1", "r2", "r3", "r4", "r5") \
     LINE("mov r9, r6") \
     LINE("ldr r2, [sp, #RECIPROCAL]") \
     LINE("lsrs r1, r2, #16") \
@@ -434,7 +431,7 @@
     LIGHT_DIFFERENCES \
     LINE("add r0, sp, #CORNERS") \
     LINE("ldmia r0!, {r2-r5}") \
-    DETERMINANTS("r0", "r6", "r7", "r1") \
+    DETERMINANTS("r0", "r6", "r7", "r1", "r2", "r3", "r4", "r5") \
     LINE("str r6, [sp, #KEPT]") \
     LINE("ldr r1, [sp, #RECIPROCAL]") \
     LINE("lsrs r2, r1, #11") \
@@ -507,11 +504,12 @@
     LINE("lsls r7, r0, #8") \
     LINE("adds r7, r7, r4") \
     LINE("b 66b") \
-    LINE("77: add r0, sp, #TO_X")       /* left to C */ \
-    LINE("ldr r1, [sp, #LIGHTS + 4]") \
-    LINE("ldr r2, [sp, #LIGHTS + 8]") \
-    LINE("str r1, [r0, #12]") \
-    LINE("str r2, [r0, #16]") \
+    LINE("77: add r0, sp, #LIGHTS")     /* left to C */ \
+    LINE("ldmia r0!, {r1, r2}") \
+    LINE("str r1, [r0, #4]") \
+    LINE("str r2, [r0, #8]") \
+    LINE("ldr r1, [sp, #TO_X]") \
+    LINE("ldr r2, [sp, #TO_Y]") \
     LINE("bl textured_thumb_far") \
     LINE("add r0, sp, #DEPTH_LIGHT") \
     LINE("ldmia r0!, {r1, r2, r4}") \

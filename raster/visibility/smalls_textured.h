@@ -26,8 +26,6 @@ TUILE_INLINE textured_run_t smalls_textured_run(const tuile_t *t, walk_t *walk, 
                             .place = smalls_place(walk)};
 }
 
-#if ASSEMBLY_THUMB2
-
 /* What sources of one instance share. */
 TUILE_INLINE void smalls_textured_instance(const tuile_t *t, textured_run_t *run) {
     const uint32_t slot = t->textured_source & 0xffffu;
@@ -69,38 +67,6 @@ static inline bool smalls_textured_put(const textured_material_t *m, textured_ru
                                  .texels = level->texels};
     return true;
 }
-
-#else
-
-TUILE_INLINE void smalls_textured_instance(const tuile_t *t, textured_run_t *run) { (void)t, (void)run; }
-
-static inline void smalls_textured_no_level(const textured_material_t *m, textured_run_t *run) {
-    (void)m;
-    run->level = run->other = (textured_run_level_t){.upper = 31, .lower = 31};
-}
-
-/* The level before it is the other one. */
-static inline bool smalls_textured_put(const textured_material_t *m, textured_run_t *run) {
-    const textured_level_t *level = &m->level;
-    if (run->level.lower == level->lower) { return false; }
-    run->other = run->level;
-    run->other_mask = run->mask;
-    run->other_texels = run->texels;
-    run->mask = level->mask | level->shift;
-    run->texels = level->texels;
-    run->level = (textured_run_level_t){.from_corner = level->from_corner,
-                                        .always = level->always,
-                                        .upper = level->upper,
-                                        .pixels_up = m->pixels_up,
-                                        .lower = level->lower,
-                                        .up = level->up,
-                                        .down = level->down,
-                                        .t_unit = level->t_unit,
-                                        .s_unit = level->s_unit};
-    return true;
-}
-
-#endif
 
 /* What t->textured_source decides. */
 TUILE_INLINE void smalls_textured_source(const tuile_t *t, textured_run_t *run) {

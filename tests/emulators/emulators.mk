@@ -119,7 +119,7 @@ THUMB2 := cortex-m3 cortex-m4 cortex-m33
 test-firmware-twins: $(BUILD)/need/bench-targets # that assembly does to the byte what its C twin does
 	$(call TWINS,vertex,raster/geometry/vertex.c raster/geometry/vertex_thumb.c raster/geometry/vertex_thumb1.c raster/divide.c,vertex_thumb,$(THUMB2) cortex-m0plus)
 	$(call TWINS,small,raster/visibility/zbuffer.c raster/fill/small_thumb.c raster/fill/small_thumb_flat.c raster/fill/small_thumb1.c raster/fill/small_thumb1_flat.c raster/divide.c,small_thumb_gouraud small_thumb_flat,$(THUMB2) cortex-m0plus)
-	$(call TWINS,textured,raster/visibility/zbuffer_textured.c raster/fill/textured_thumb.c raster/fill/textured_thumb1.c raster/fill/small_thumb.c raster/surface/textured.c raster/divide.c,textured_thumb,$(THUMB2) cortex-m0plus)
+	$(call TWINS,textured,raster/visibility/zbuffer_textured.c raster/fill/textured_thumb.c raster/fill/textured_thumb1.c raster/fill/small_thumb.c raster/fill/small_thumb1.c raster/surface/textured.c raster/divide.c,textured_thumb,$(THUMB2) cortex-m0plus)
 	$(call TWINS,face,raster/frame/face_plain.c raster/frame/face_thumb.c raster/frame/face_thumb1.c,face_thumb,$(THUMB2) cortex-m0plus)
 
 test-firmware: test-firmware-checks test-firmware-harness test-firmware-input test-firmware-twins $(BOARDS:%=test-firmware-%) ## boards in emulators: frames equal to the simulator's, faults, sizes, stack
