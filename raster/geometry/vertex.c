@@ -109,9 +109,11 @@ static bool octave_of_cluster(const transform_t *transform, vertex_octave_t *oct
                                       model_i16(cluster + CLUSTER_AT_CENTRE + 2), model_i16(cluster + CLUSTER_AT_CENTRE + 4));
     const int32_t first = transform->w_fast, last = (int32_t)(transform->w_high >> 16) - 2;
     if (w < first || w - (int32_t)reach < first || (uint32_t)w + (uint32_t)reach >= (uint32_t)last) { return false; }
-    const unsigned zeros = fixed_clz32((uint32_t)w - (uint32_t)reach);
-    if (((uint32_t)w + (uint32_t)reach) >> (31 - zeros) != 1) { return false; }
+    const unsigned zeros = fixed_clz32((uint32_t)w + (uint32_t)reach);
+    const uint32_t least = ((uint32_t)w - (uint32_t)reach) >> (30 - zeros); /* in halves of the octave's first number */
+    if (least < (ASSEMBLY_THUMB1 ? 1 : 2)) { return false; }
     *octave = octave_with(transform, zeros);
+    octave->second = least < 2;
     return octave->depth_shift <= 21;
 }
 

@@ -10,6 +10,7 @@ typedef struct vertex_octave {
     uint32_t first, range;
     unsigned zeros, shift, depth_shift;
     int32_t half;
+    bool second; /* some W lie in the octave below: vertex_thumb1.c alone */
 } vertex_octave_t;
 
 /* transform->run, of what the vertices of all clusters share; all else of the transform is there. ASSEMBLY_VERTICES only. */

@@ -103,7 +103,8 @@ static const uint32_t lines[256][2] = {LINES64(0), LINES64(64), LINES64(128), LI
     ROW("ldmia r0!, {r6, r7}\n") \
     "ldmia r0, {r0, r6, r7}\n" \
     "lsls r5, r6\n" /* the leading one falls out, and is put back: any W has it that way */ \
-    "lsrs r5, r5, #1\n" \
+    "bcc 40b\n" \
+    "41: lsrs r5, r5, #1\n" \
     "adds r5, r7\n" \
     "lsrs r6, r5, #16\n" \
     "lsrs r4, r5, #23\n" \
@@ -141,7 +142,7 @@ static const uint32_t lines[256][2] = {LINES64(0), LINES64(64), LINES64(128), LI
     "str r5, [r0, %[x]]\n" \
     ROW("ldmia r0, {r0, r6, r7}\n") \
     "ldrh r1, [r0, %[r_low]]\n" \
-    "ldrh r2, [r0, %[r_high]]\n" \
+    "ldrh r2, [r0, %[r_low]+2]\n" \
     TIMES_RECIPROCAL("r5") \
     "ldmia r0!, {r4, r6, r7}\n" \
     "asrs r5, r7\n" /* carry: what rounds */ \
@@ -154,6 +155,42 @@ static const uint32_t lines[256][2] = {LINES64(0), LINES64(64), LINES64(128), LI
     "adcs r6, r2\n" \
     "31:\n" \
     BEYOND
+
+/* A W without the leading one: of the second octave, where the cluster has one. The next vertex is then the run's last, so that what
+ * is changed here for this one is put back before another. */
+#define LOWER \
+    "40: ldr r4, %[second]\n" \
+    "cmp r4, #0\n" \
+    "beq 44f\n" \
+    "lsls r5, r5, #1\n" \
+    "movs r6, r0\n" \
+    "adds r6, %[below]\n" \
+    "ldr r4, [r6, %[shift]]\n" \
+    "subs r4, #1\n" \
+    "str r4, [r6, %[shift]]\n" \
+    "ldr r4, [r6, %[depth_shift]]\n" \
+    "subs r4, #1\n" \
+    "str r4, [r6, %[depth_shift]]\n" \
+    "ldr r4, [r6, %[at]]\n" \
+    "str r4, [r6, %[end]]\n" \
+    "44: b 41f\n"
+
+#define RESTORE \
+    "42: ldr r3, %[last]\n" \
+    "cmp r1, r3\n" \
+    "bne 43f\n" \
+    "b 5f\n" \
+    "43: " \
+    "ldr r6, %[run]\n" \
+    "adds r6, %[begin]\n" \
+    "ldr r4, [r6, %[shift]]\n" \
+    "adds r4, #1\n" \
+    "str r4, [r6, %[shift]]\n" \
+    "ldr r4, [r6, %[depth_shift]]\n" \
+    "adds r4, #1\n" \
+    "str r4, [r6, %[depth_shift]]\n" \
+    "str r3, [r6, %[end]]\n" \
+    "b 1f\n"
 
 /* r5: x and y as they are stored; r6: the depth 8 places to the left. */
 #define LAST \
@@ -218,6 +255,7 @@ static const uint32_t lines[256][2] = {LINES64(0), LINES64(64), LINES64(128), LI
 
 /* What is in high registers all along, and what else the assembly reads. */
 #define RUN(...) \
+    const void *const last = run->end; \
     register const void *r0 __asm__("r0") = run->lights; \
     register const int16_t *r1 __asm__("r1") = positions; \
     register vertex_t *r2 __asm__("r2") = out; \
@@ -227,19 +265,26 @@ static const uint32_t lines[256][2] = {LINES64(0), LINES64(64), LINES64(128), LI
     register uint32_t r12 __asm__("r12") = width; \
     register uint32_t lr __asm__("lr") = pack; \
     __asm__ volatile(".syntax unified\n" __VA_ARGS__ \
-                     : "+r"(r0), "+r"(r1), "+r"(r2), "+r"(r8), "+r"(r9), "+r"(r11), "+r"(r12), "+r"(lr) \
-                     : [position] WORD(position, w), [r] WORD(r, x), [x] WORD(at_x, y), [r_low] WORD(r, minus_y), \
-                       [r_high] "n"(offsetof(transform_run_t, r) + 2 - offsetof(transform_run_t, minus_y)), \
+                     : "+r"(r0), "+r"(r1), "+r"(r2) \
+                     : "r"(r8), "r"(r9), "r"(r11), "r"(r12), "r"(lr), [position] WORD(position, w), [r] WORD(r, x), [x] WORD(at_x, y), [r_low] WORD(r, minus_y), \
                        [region] WORD(region, lights), [any] WORD(any, lights), [out] WORD(out, w), \
                        [region_width] "n"(offsetof(transform_t, region_width) - offsetof(transform_t, region_x)), \
                        [guard_x] "n"(offsetof(transform_t, guard_x) - offsetof(transform_t, region_x)), \
-                       [guard_y] "n"(offsetof(transform_t, guard_y) - offsetof(transform_t, region_x)) \
+                       [guard_y] "n"(offsetof(transform_t, guard_y) - offsetof(transform_t, region_x)), [second] "m"(second), \
+                       [last] "m"(last), [run] "m"(run), [below] WORD(minus_y, x), [begin] WORD(minus_y, at_w), \
+                       [shift] WORD(shift, minus_y), [depth_shift] WORD(depth_shift, minus_y), [at] WORD(position, minus_y), \
+                       [end] WORD(end, minus_y) \
                      : "r3", "r4", "r5", "r6", "r7", "r10", "cc", "memory")
 
 static TUILE_NOINLINE void run_lit(const transform_t *transform, const int16_t *positions, vertex_t *out, uint32_t width,
-                                   uint32_t pack) {
+                                   uint32_t pack, uint32_t second) {
     const transform_run_t *const run = &transform->run;
-    RUN("1: ldmia r0, {r0, r3, r4, r5, r6}\n"
+    RUN("b 1f\n" RESTORE LOWER
+        "3: mov r3, r8\n"
+        "b 2f\n"
+        "4: movs r3, #253\n"
+        "b 2f\n"
+        "1: ldmia r0, {r0, r3, r4, r5, r6}\n"
         "str r2, [r0, %[out]]\n"
         "lsrs r7, r1, #1\n" /* three bytes for six */
         "ldrsb r2, [r6, r7]\n"
@@ -253,34 +298,31 @@ static TUILE_NOINLINE void run_lit(const transform_t *transform, const int16_t *
         "muls r5, r2, r5\n"
         "adds r3, r5\n"
         "asrs r3, r3, #13\n"
-        "bmi 3f\n"
+        "bmi 3b\n"
         "add r3, r8\n"
         "cmp r3, #253\n"
-        "bhi 4f\n"
+        "bhi 4b\n"
         "2: mov r10, r3\n" FIRST LAST
         "add r6, r10\n"
         "ldmia r0, {r0, r1, r2, r3}\n"
         "stmia r2!, {r5, r6}\n"
         "cmp r1, r3\n"
         "bne 1b\n"
-        "b 5f\n"
-        "3: mov r3, r8\n"
-        "b 2b\n"
-        "4: movs r3, #253\n"
-        "b 2b\n" MIDDLE
+        "b 42b\n" MIDDLE
         "5:\n");
 }
 
 static TUILE_NOINLINE void run_unlit(const transform_t *transform, const int16_t *positions, vertex_t *out, uint32_t width,
-                                     uint32_t pack) {
+                                     uint32_t pack, uint32_t second) {
     const transform_run_t *const run = &transform->run;
-    RUN("1: str r2, [r0, %[out]]\n" FIRST LAST
+    RUN("b 1f\n" RESTORE LOWER
+        "1: str r2, [r0, %[out]]\n" FIRST LAST
         "adds r6, #2\n"
         "ldmia r0, {r0, r1, r2, r3}\n"
         "stmia r2!, {r5, r6}\n"
         "cmp r1, r3\n"
         "bne 1b\n"
-        "b 5f\n" MIDDLE
+        "b 42b\n" MIDDLE
         "5:\n");
 }
 
@@ -331,9 +373,9 @@ unsigned vertex_thumb(transform_t *transform, const int16_t *positions, const in
     const int32_t left = -run->minus_x, width = transform->region_x + transform->region_width - left;
     const uint32_t pack = ((uint32_t)transform->region_y << 16) + (uint32_t)left;
     if (normals) {
-        run_lit(transform, positions, out, width > 0 ? (uint32_t)width : 0, pack);
+        run_lit(transform, positions, out, width > 0 ? (uint32_t)width : 0, pack, octave->second);
     } else {
-        run_unlit(transform, positions, out, width > 0 ? (uint32_t)width : 0, pack);
+        run_unlit(transform, positions, out, width > 0 ? (uint32_t)width : 0, pack, octave->second);
     }
     return run->any;
 }

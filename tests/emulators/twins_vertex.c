@@ -15,12 +15,14 @@ unsigned __real_vertex_thumb(transform_t *transform, const int16_t *positions, c
 unsigned __wrap_vertex_thumb(transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out,
                              const vertex_octave_t *octave);
 
-/* Clusters that the assembly was called for. */
-static unsigned called;
+/* Clusters that the assembly was called for, those of two octaves, and whether the last one was. */
+static unsigned called, seconds;
+static bool second;
 
 unsigned __wrap_vertex_thumb(transform_t *transform, const int16_t *positions, const int8_t *normals, unsigned count, vertex_t *out,
                              const vertex_octave_t *octave) {
     called++;
+    seconds += second = octave->second;
     return __real_vertex_thumb(transform, positions, normals, count, out, octave);
 }
 
@@ -53,7 +55,8 @@ static transform_row_t random_bounded_row(random_source_t *random, const int16_t
 static transform_t random_transform(random_source_t *random, const int16_t centre[3], unsigned reach_bits) {
     transform_t transform = {.perspective = true};
     const unsigned bits = (unsigned)random_between(random, 4, 31), zeros = 31 - bits + 1;
-    const int32_t low = (int32_t)(1u << (bits - 1)), w = low + (int32_t)(random_bits(random) % (uint32_t)low);
+    const int32_t low = (int32_t)(1u << (bits - 1)),
+                  w = low + (int32_t)(random_bits(random) % (uint32_t)(random_one_in(random, 4) ? low / 8 + 1 : low));
     const unsigned slope = (unsigned)random_between(random, 1, (int32_t)bits);
     int64_t sum = (int64_t)w * 65536 + random_between(random, 0, 65535);
     transform.w = random_row(random, slope, 1);
@@ -69,7 +72,7 @@ static transform_t random_transform(random_source_t *random, const int16_t centr
     transform.w_fast = random_one_in(random, 2) ? 1 : low + (w - low) / 2;
     transform.x = random_bounded_row(random, centre, reach_bits);
     transform.y = random_bounded_row(random, centre, reach_bits);
-    transform.k = (int8_t)random_between(random, 0, zeros < 29 ? 29 - (int32_t)zeros : 0);
+    transform.k = (int8_t)random_between(random, 0, zeros < 28 ? 28 - (int32_t)zeros : 0);
     transform.depth_shift = (int8_t)((int32_t)zeros + random_between(random, 6, 22));
     transform.region_x = (int16_t)any32(random, 15);
     transform.region_y = (int16_t)any32(random, 15);
@@ -163,8 +166,10 @@ bool twins_test(void) {
         }
         vertex_thumb_make(&transform);
         const unsigned before = called;
+        second = false;
         const unsigned any = vertex_stage_region(&transform, cluster, first, light, count, assembly);
         const unsigned wanted = c_vertex_stage_region(&transform, cluster, first, light, count, c);
+        if (second && damaged) { continue; } /* any picture will do */
         if (any != wanted || !twins_equal("vertices", assembly, c, sizeof c)) {
             twins_tell("round ", (int32_t)round, " of ", (int32_t)count, " vertices: any is ", (int32_t)any, ", in C ",
                        (int32_t)wanted, NULL);
@@ -179,7 +184,9 @@ bool twins_test(void) {
             bright += (uint8_t)assembly[i].depth_light == LIGHT_MAX;
         }
     }
-    twins_tell("vertices: clusters in assembly ", (int32_t)called, ", within ", (int32_t)within, ", beyond ", (int32_t)beyond,
-               ", outside ", (int32_t)outside, ", dark ", (int32_t)dark, ", bright ", (int32_t)bright, NULL);
-    return called > ROUNDS / 4 && within > 100 && beyond > 100 && outside > 100 && dark > 100 && bright > 100;
+    twins_tell("vertices: clusters in assembly ", (int32_t)called, ", of two octaves ", (int32_t)seconds, ", within ",
+               (int32_t)within, ", beyond ", (int32_t)beyond, ", outside ", (int32_t)outside, ", dark ", (int32_t)dark, ", bright ",
+               (int32_t)bright, NULL);
+    return called > ROUNDS / 4 && (!ASSEMBLY_THUMB1 || seconds > 200) && within > 100 && beyond > 100 && outside > 100 &&
+           dark > 100 && bright > 100;
 }
