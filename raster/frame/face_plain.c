@@ -30,12 +30,14 @@ TUILE_INLINE void bucket_at(const tuile_t *t, face_bucket_t *bucket, uint32_t ro
 
 /* flat, bytes of a record and columns are constants where it matters. columns: a face without columns is left out. They are one in
  * sixty, for which the z-buffer does not ask: such a face is soon drawn there, but other methods keep it among the rest. */
-TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count, bool flat, uint32_t bytes, bool columns) {
+TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count, bool flat, uint32_t bytes, bool columns,
+                            bool surface) {
     const vertex_t *const v = cluster->vertices;
     const uint32_t base = (uint32_t)(v - t->vertices), before = t->record_count;
     const uint8_t material_base = (uint8_t)t->material_base;
     const vertex_sun_t sun = vertex_sun(&t->transform);
     const bool larger = bytes != sizeof(record_t);
+    const uint16_t source = t->source;
     const int8_t *normal = cluster->face_normals;
     uint8_t *at = t->arena_end - (size_t)(before + 1) * bytes;
     face_bucket_t bucket = {&t->buckets[t->pass_first], (uint32_t)t->pass_first * t->config.tile_height};
@@ -81,27 +83,39 @@ TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned
         bucket_at(t, &bucket, (uint32_t)row);
         record->next = *bucket.list;
         *bucket.list = (uint16_t)++number;
-        if (larger) { face_extend(t, record, cluster->first_face + (uint32_t)(face - cluster->faces) / 4); }
+        if (larger && surface) {
+            record_surface_t *extended = frame_record_surface(record);
+            extended->source = source;
+            extended->green = extended->blue = record->light;
+        } else if (larger) {
+            face_extend(t, record, cluster->first_face + (uint32_t)(face - cluster->faces) / 4);
+        }
     }
     face_binned(t, count, number, degenerate, outside, longest);
 }
 
 static TUILE_NOINLINE void bin_flat(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
-    bin_plain(t, cluster, count, true, sizeof(record_t), false);
+    bin_plain(t, cluster, count, true, sizeof(record_t), false, false);
 }
 
 static TUILE_NOINLINE void bin_smooth(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
-    bin_plain(t, cluster, count, false, sizeof(record_t), false);
+    bin_plain(t, cluster, count, false, sizeof(record_t), false, false);
 }
 
 static TUILE_NOINLINE void bin_any(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
-    bin_plain(t, cluster, count, cluster->face_normals != NULL, t->record_bytes, t->config.method != TUILE_ZBUFFER);
+    bin_plain(t, cluster, count, cluster->face_normals != NULL, t->record_bytes, t->config.method != TUILE_ZBUFFER, false);
+}
+
+static TUILE_NOINLINE void bin_smooth_surface(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
+    bin_plain(t, cluster, count, false, sizeof(record_surface_t), false, true);
 }
 
 bool face_bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
     if (!is_plain(t, cluster, count)) { return false; }
     if (ASSEMBLY_FACES && face_thumb(t, cluster, count)) { return true; }
-    if (ASSEMBLY_FACES || t->config.method != TUILE_ZBUFFER || t->record_bytes != sizeof(record_t)) { /* there what is rare */
+    if (FIXED_WIDE_REGISTERS && t->config.method == TUILE_ZBUFFER && t->numbers && !cluster->face_normals) {
+        bin_smooth_surface(t, cluster, count);
+    } else if (ASSEMBLY_FACES || t->config.method != TUILE_ZBUFFER || t->record_bytes != sizeof(record_t)) { /* there what is rare */
         bin_any(t, cluster, count);
     } else if (cluster->face_normals) {
         bin_flat(t, cluster, count);
