@@ -17,7 +17,8 @@
 /* Faces that it leaves to C, which draws them. */
 static uint32_t left_to_c;
 
-static inline bool counted(bool drawn_by_c) {
+bool counted(bool drawn_by_c);
+bool counted(bool drawn_by_c) {
     left_to_c += drawn_by_c;
     return drawn_by_c;
 }
@@ -26,8 +27,7 @@ static inline bool counted(bool drawn_by_c) {
 #undef small_prepare
 #include "../raster/visibility/zbuffer_textured.c"
 
-#define THERE_IS_SSE2 ASSEMBLY_SSE2
-enum { SSE2 = THERE_IS_SSE2 };
+enum { SSE2 = ASSEMBLY_SSE2 };
 
 #undef smalls_textured
 #undef zbuffer_textured_tile

@@ -29,7 +29,8 @@ TUILE_INLINE void bucket_at(const tuile_t *t, face_bucket_t *bucket, uint32_t ro
 }
 
 /* flat, bytes of a record and columns are constants where it matters. columns: a face without columns is left out. They are one in
- * sixty, for which the z-buffer does not ask: such a face is soon drawn there, but other methods keep it among the rest. */
+ * sixty, for which the z-buffer does not ask: such a face is soon drawn there, but other methods keep it among the rest. surface: a
+ * larger record is a surface's, of light at the vertices. */
 TUILE_INLINE void bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count, bool flat, uint32_t bytes, bool columns,
                             bool surface) {
     const vertex_t *const v = cluster->vertices;
@@ -115,7 +116,8 @@ bool face_bin_plain(tuile_t *t, const frame_cluster_t *cluster, unsigned count) 
     if (ASSEMBLY_FACES && face_thumb(t, cluster, count)) { return true; }
     if (FIXED_WIDE_REGISTERS && t->config.method == TUILE_ZBUFFER && t->numbers && !cluster->face_normals) {
         bin_smooth_surface(t, cluster, count);
-    } else if (ASSEMBLY_FACES || t->config.method != TUILE_ZBUFFER || t->record_bytes != sizeof(record_t)) { /* there what is rare */
+    } else if (ASSEMBLY_FACES || t->config.method != TUILE_ZBUFFER ||
+               t->record_bytes != sizeof(record_t)) { /* there what is rare */
         bin_any(t, cluster, count);
     } else if (cluster->face_normals) {
         bin_flat(t, cluster, count);

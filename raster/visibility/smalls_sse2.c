@@ -8,7 +8,8 @@
  */
 #include "../tune.h"
 #if defined(__GNUC__) && !defined(__clang__)
-/* 8 % fewer: numbers that do not change are left in memory, where an instruction takes them from. */
+/* 9 % fewer of all of a frame: numbers that do not change are left in memory, which instructions take them from, instead of being
+ * moved out of loops into registers that are not there. */
 #pragma GCC optimize("no-ivopts", "no-gcse", "no-tree-loop-im", "no-move-loop-invariants", "no-tree-ter", "ira-region=one")
 #endif
 
@@ -74,12 +75,13 @@ typedef struct level {
     textured_rows_level_t rows;
 } level_t;
 
-enum { LEVELS = 3 }; /* others at hand: the faces of a model want two or three in turn */
+enum { LEVELS = 4 }; /* at hand: the faces of a model want two or three in turn */
 
 typedef struct loop {
-    textured_rows_t rows; /* its level is that of `level` */
-    level_t level, others[LEVELS];
-    uint32_t oldest;     /* of the others */
+    textured_rows_t rows; /* its level is the current one */
+    const level_t *level; /* the current one, of these: */
+    level_t levels[LEVELS];
+    uint32_t oldest;     /* of the levels */
     uint32_t wanted;     /* of records: material, 0, source */
     uint32_t material;   /* t->textured_instance and t->textured_number, which decide the next four and the levels */
     uint32_t across;     /* textured_material_t, less 4; below 2^15 */
@@ -124,7 +126,7 @@ TUILE_INLINE bool level_wanted(const level_t *level, uint64_t texels, uint64_t p
     return texels < pixels * level->upper_times + level->upper_more && texels >= pixels * level->lower_times + level->lower_more;
 }
 
-/* The material's current level takes the place of the loop's, and that the place of the oldest other one. */
+/* The material's current level becomes the loop's, in place of the oldest one. */
 static TUILE_NOINLINE void loop_level(loop_t *loop, const textured_material_t *m) {
     const textured_level_t *from = &m->level;
     const uint64_t one = 1;
@@ -140,9 +142,9 @@ static TUILE_NOINLINE void loop_level(loop_t *loop, const textured_material_t *m
         l.lower_times = one << (m->pixels_up + from->lower);
         l.lower_more = one << from->lower;
     }
-    loop->others[loop->oldest] = loop->level;
+    loop->level = &loop->levels[loop->oldest];
+    loop->levels[loop->oldest] = l;
     loop->oldest = (loop->oldest + 1) % LEVELS;
-    loop->level = l;
     loop->rows.level = l.rows;
 }
 
@@ -160,8 +162,7 @@ static TUILE_NOINLINE bool loop_source(loop_t *loop, tuile_t *t, const record_t 
     loop->across = (m->across < INT16_MAX ? m->across : INT16_MAX) - 4u;
     loop->one = m->one + 4u;
     loop->log2_one = m->uv_bits;
-    memset(loop->others, 0, sizeof loop->others); /* none */
-    memset(&loop->level, 0, sizeof loop->level);
+    memset(loop->levels, 0, sizeof loop->levels); /* none */
     loop->oldest = 0;
     loop_level(loop, m);
     return true;
@@ -191,18 +192,16 @@ static TUILE_NOINLINE bool loop_beside(const loop_t *loop, tuile_t *t, walk_t *w
 /* Takes up the level of a face. texels: by textured_size. False: it is left to C. */
 static TUILE_NOINLINE bool loop_level_find(loop_t *loop, tuile_t *t, uint32_t texels, uint32_t area) {
     for (unsigned i = 0; i < LEVELS; i++) {
-        if (level_wanted(&loop->others[i], texels, area)) {
-            const level_t level = loop->others[i];
-            loop->others[i] = loop->level;
-            loop->level = level;
-            loop->rows.level = level.rows;
+        if (level_wanted(&loop->levels[i], texels, area)) {
+            loop->level = &loop->levels[i];
+            loop->rows.level = loop->level->rows;
             return true;
         }
     }
     textured_material_t *m = &t->textured_last;
     if (!textured_level_find(m, texels, area << m->pixels_up)) { return false; }
     loop_level(loop, m);
-    return level_wanted(&loop->level, texels, area);
+    return level_wanted(loop->level, texels, area);
 }
 
 /* Is it short, and inside the tile's columns? */
@@ -272,16 +271,16 @@ TUILE_INLINE face_map_t map_make(const loop_t *loop, sse2_longs_t determinants, 
     const uint32_t sign = UINT32_C(1) << 31;
     const sse2_quads_t half = {sign, sign};
     /* (determinant * 2^up * reciprocal + 2^31) / 2^32: the first factor as if 2^31 greater, so that it is not negative */
-    const sse2_longs_t factors = LONGS_UP(determinants, COUNT(loop->level.up)) ^ (sse2_longs_t) { sign, sign, sign, sign },
+    const sse2_longs_t factors = LONGS_UP(determinants, COUNT(loop->level->up)) ^ (sse2_longs_t) { sign, sign, sign, sign },
                        r = BOTH(reciprocal);
     const sse2_quads_t round = half - ((sse2_quads_t)r << 31);
     const sse2_longs_t x = (sse2_longs_t)(((sse2_quads_t)PRODUCTS(factors, r) + round) >> 32),
                        y = (sse2_longs_t)(((sse2_quads_t)PRODUCTS((sse2_quads_t)factors >> 32, r) + round) >> 32);
-    const sse2_longs_t units = loop->level.units, map_x = PRODUCTS(x, units), map_y = PRODUCTS(y, units);
+    const sse2_longs_t units = loop->level->units, map_x = PRODUCTS(x, units), map_y = PRODUCTS(y, units);
     const sse2_longs_t steps = QUADS(map_x, map_y) + UPPER_QUADS(map_x, map_y);
     /* each word twice, so that it is one of them 2^16 times, of a long */
     const sse2_longs_t corner =
-        LONGS_DOWN((sse2_longs_t)((sse2_signed_t)WORDS(c0, c0) >> 8) & loop->inside, COUNT(loop->level.from_corner));
+        LONGS_DOWN((sse2_longs_t)((sse2_signed_t)WORDS(c0, c0) >> 8) & loop->inside, COUNT(loop->level->from_corner));
     const sse2_longs_t part = PRODUCTS(x, BOTH(to_x)) + PRODUCTS(y, BOTH(to_y & 15));
     const sse2_longs_t at = PRODUCTS(LONGS_OF(corner, 0x10) + (sse2_longs_t)((sse2_signed_t)part >> 4), units);
     return (face_map_t){at + LONGS_OF(at, 0x4e) + PRODUCTS(steps, BOTH(rows)), steps};
@@ -345,7 +344,7 @@ void smalls_textured_sse2(tuile_t *t, walk_t *walk, uint32_t limit) {
         const uint32_t area = PAIRS(corners, normal)[0];
         if (TUILE_UNLIKELY(area < 8) && 8 * (across + 4) > (loop.across + 4) * area) { goto beside; }
         const uint32_t texels = textured_size((int32_t)PAIRS(st, crossed)[0]);
-        if (TUILE_UNLIKELY(!level_wanted(&loop.level, texels, area)) && !loop_level_find(&loop, t, texels, area)) { goto beside; }
+        if (TUILE_UNLIKELY(!level_wanted(loop.level, texels, area)) && !loop_level_find(&loop, t, texels, area)) { goto beside; }
 
         const int64_t x0 = v0->x, y0 = v0->y, mid_x = mid->x - x0, mid_y = mid->y - y0, low_x = low->x - x0, low_y = low->y - y0;
         const uint32_t to_x = (uint32_t)(8 - x0) & 15;
