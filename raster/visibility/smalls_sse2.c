@@ -178,9 +178,8 @@ static TUILE_NOINLINE bool loop_beside(const loop_t *loop, tuile_t *t, walk_t *w
         !small_prepare(t, record, number, SMALL_TEXTURED, true, &face, v0, v1, v2, &paint)) {
         return false;
     }
-    const bool inside = small_inside(&face.corners, &loop->tile),
-               reaches = small_fill(&face, v0, v1, v2, &loop->tile, SMALL_TEXTURED, true, 0, &paint, true);
-    if (!inside && t->tile_columns > 1) {
+    const bool reaches = small_fill(&face, v0, v1, v2, &loop->tile, SMALL_TEXTURED, true, 0, &paint, true);
+    if (t->tile_columns > 1) {
         columns_hand_on(t, number, (uint32_t)t->tile.left / t->config.tile_width, t->tile.bottom, &walk->right, &walk->left);
     } else if (reaches) {
         list_append(t, &walk->left, number);
