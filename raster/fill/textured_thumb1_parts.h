@@ -28,7 +28,8 @@ _Static_assert(sizeof(source_slot_t) == 2 * sizeof(vertex_t) && offsetof(source_
                "numbers in the assembly");
 _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && offsetof(record_t, d2) == 5 &&
                    offsetof(record_t, material) == 6 && offsetof(record_surface_t, source) == 8 && sizeof(vertex_t) == 8 &&
-                   TRIANGLE_SMALL_DEPTH == 1 << 17 && TEXTURED_FRACTION == 8 && TEXTURED_BIAS == 1 << 25 && DIVIDE_TABLE == 512,
+                   TRIANGLE_SMALL_DEPTH == 1 << 17 && TEXTURED_FRACTION == 8 && TEXTURED_BIAS == 1 << 25 && DIVIDE_TABLE == 512 &&
+                   sizeof(divide_side_t) == 8 && offsetof(divide_side_t, inverse) == 4,
                "numbers in the assembly");
 
 /* clang-format off */
@@ -81,35 +82,36 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE(".equ COUNT, 208") \
     LINE(".equ END, 212") \
     LINE(".equ LEAST_AREA, 216")     /* of faces that are not to be looked at: 8, or where they are not known any is less */ \
-    LINE(".equ TABLE, 220")          /* divide_table, small_thumb1_shifts */ \
-    LINE(".equ SHIFTS, 224") \
-    LINE(".equ START, 228")          /* small_start(0) */ \
-    LINE(".equ ONES, 232")           /* 2^31 - 1 */ \
-    LINE(".equ NEAR, 236")           /* TRIANGLE_SMALL_DEPTH */ \
-    LINE(".equ ROUND, 240")          /* of colours, red, green and blue */ \
-    LINE(".equ FIELD, 244")          /* of green, 6 bits above its own place */ \
-    LINE(".equ PALETTE, 248")        /* of the run, as all to PIXELS_UP */ \
-    LINE(".equ LIMIT, 252") \
-    LINE(".equ ARENA, 256") \
-    LINE(".equ RECORD_BYTES, 260") \
-    LINE(".equ SOURCE, 264") \
-    LINE(".equ KNOWN, 268") \
-    LINE(".equ VERTICES, 272") \
-    LINE(".equ TEXCOORDS, 276") \
-    LINE(".equ TOP, 280") \
-    LINE(".equ HEIGHT, 284") \
-    LINE(".equ DEPTH, 288") \
-    LINE(".equ RUN_STRIDE, 292") \
-    LINE(".equ ACROSS, 296") \
-    LINE(".equ ONE, 300") \
-    LINE(".equ LOG2_ONE, 304") \
-    LINE(".equ PIXELS_UP, 308") \
-    LINE(".equ S_INSIDE, 312")       /* and as all to the width */ \
-    LINE(".equ INSTANCE, 316") \
-    LINE(".equ MODEL_TEXCOORDS, 320") \
-    LINE(".equ LEFT, 324")           /* and width */ \
+    LINE(".equ SLOPES, 220")           /* divide_sides */ \
+    LINE(".equ TABLE, 224")          /* divide_table, small_thumb1_shifts */ \
+    LINE(".equ SHIFTS, 228") \
+    LINE(".equ START, 232")          /* small_start(0) */ \
+    LINE(".equ ONES, 236")           /* 2^31 - 1 */ \
+    LINE(".equ NEAR, 240")           /* TRIANGLE_SMALL_DEPTH */ \
+    LINE(".equ ROUND, 244")          /* of colours, red, green and blue */ \
+    LINE(".equ FIELD, 248")          /* of green, 6 bits above its own place */ \
+    LINE(".equ PALETTE, 252")        /* of the run, as all to PIXELS_UP */ \
+    LINE(".equ LIMIT, 256") \
+    LINE(".equ ARENA, 260") \
+    LINE(".equ RECORD_BYTES, 264") \
+    LINE(".equ SOURCE, 268") \
+    LINE(".equ KNOWN, 272") \
+    LINE(".equ VERTICES, 276") \
+    LINE(".equ TEXCOORDS, 280") \
+    LINE(".equ TOP, 284") \
+    LINE(".equ HEIGHT, 288") \
+    LINE(".equ DEPTH, 292") \
+    LINE(".equ RUN_STRIDE, 296") \
+    LINE(".equ ACROSS, 300") \
+    LINE(".equ ONE, 304") \
+    LINE(".equ LOG2_ONE, 308") \
+    LINE(".equ PIXELS_UP, 312") \
+    LINE(".equ S_INSIDE, 316")       /* and as all to the width */ \
+    LINE(".equ INSTANCE, 320") \
+    LINE(".equ MODEL_TEXCOORDS, 324") \
+    LINE(".equ LEFT, 328")           /* and width */ \
     LINE(".equ KEPT, OFFSETS")           /* three words, where depths are far apart */ \
-    LINE(".equ FRAME, 332") \
+    LINE(".equ FRAME, 336") \
     LINE(".equ RUN_SOURCE, 32") \
     LINE(".equ RUN_LIST, 132") \
     LINE(".equ RUN_LEVELS, 144")
@@ -125,9 +127,9 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("sub sp, #FRAME") \
     LINE("str r0, [sp, #RUN]") \
     LINE("adr r1, 1f") \
-    LINE("ldmia r1!, {r2-r4}") \
-    LINE("add r5, sp, #TABLE") \
-    LINE("stmia r5!, {r2-r4}") \
+    LINE("ldmia r1!, {r2-r4, r6}") \
+    LINE("add r5, sp, #SLOPES") \
+    LINE("stmia r5!, {r2-r4, r6}") \
     LINE("ldmia r1!, {r2-r4, r6}") \
     LINE("stmia r5!, {r2-r4, r6}") \
     LINE("ldr r1, [r0, #8]") \
@@ -177,7 +179,7 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("mov r11, r7") \
     LINE("pop {r4-r7, pc}") \
     LINE(".align 2") \
-    LINE("1: .word divide_table, small_thumb1_shifts, 0xfffc0, 0x7fffffff, 0x20000, 0x10420, 0x1f800")
+    LINE("1: .word divide_sides, divide_table, small_thumb1_shifts, 0xfffc0, 0x7fffffff, 0x20000, 0x10420, 0x1f800")
 
 /* 80: its area, r7, is too small, or nothing is known of the face: is it short, and inside the tile's columns? */
 #define IS_SMALL \

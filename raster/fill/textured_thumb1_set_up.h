@@ -6,29 +6,25 @@
 
 /* clang-format off */
 
-/* To OUT a side's slope, by the table (divide_side_by_table). OUT may be Y, not X; r7 is free. */
-#define SLOPE(OUT, X, Y) \
-    LINE("lsls " OUT ", " Y ", #2") \
-    LINE("ldr r7, [sp, #TABLE]") \
-    LINE("ldr r7, [r7, " OUT "]") \
-    LINE("lsrs " OUT ", r7, #16") \
-    LINE("uxth r7, r7") \
-    LINE("muls " OUT ", " X ", " OUT) \
+/* To r7 a side's slope, by the table (divide_side_by_table). SHIFT, a lower register, is lost; it is not X. */
+#define SLOPE(SHIFT, X, Y) \
+    LINE("lsls r7, " Y ", #3") \
+    LINE("ldr " SHIFT ", [sp, #SLOPES]") \
+    LINE("adds r7, r7, " SHIFT) \
+    LINE("ldmia r7, {" SHIFT ", r7}") \
     LINE("muls r7, " X ", r7") \
-    LINE("lsls " OUT ", " OUT ", #5") \
-    LINE("asrs r7, r7, #11") \
-    LINE("adds " OUT ", " OUT ", r7")
+    LINE("asrs r7, " SHIFT)
 
 /* The sides of a triangle whose mid corner is (XM, YM), its lowest one (XL, YL): r0 rows below the bend, r1 those above, or of the
  * only part, r2, r3 left and right side in the first row, r4, r5 their slopes; r12 -rows. The side of the bend is BX, BS, the other
  * one OX, OS. r1: to_y, r8: start. FILLED: where to then. */
 #define EDGES(XM, YM, XL, YL, BX, BS, OX, OS, FILLED) \
     SLOPE("r0", XL, YL) \
-    LINE("mov r9, r0") \
-    LINE("muls r0, r1, r0") \
-    LINE("asrs r0, r0, #4") \
-    LINE("add r0, r8") \
-    LINE("mov r11, r0") \
+    LINE("mov r9, r7") \
+    LINE("muls r7, r1, r7") \
+    LINE("asrs r7, r7, #4") \
+    LINE("add r7, r8") \
+    LINE("mov r11, r7") \
     LINE("subs r6, r1, " YL) \
     LINE("asrs r6, r6, #4")                 /* -rows */ \
     LINE("ldr r0, [sp, #ROWS_LEFT]") \
@@ -47,20 +43,21 @@
     LINE("lsls r0, r0, #28")                /* from the bend to the next centre */ \
     LINE("lsrs r0, r0, #28") \
     SLOPE("r6", XL, YL) \
-    LINE("muls r0, r6, r0") \
+    LINE("muls r0, r7, r0") \
     LINE("asrs r0, r0, #4") \
-    LINE("lsls r7, " XM ", #16") \
-    LINE("adds r0, r0, r7") \
+    LINE("lsls r6, " XM ", #16") \
+    LINE("adds r0, r0, r6") \
     LINE("add r0, r8") \
-    LINE("subs r0, r0, r6") \
+    LINE("subs r0, r0, r7") \
     LINE("str r0, [sp, #NEXT_X]") \
-    LINE("str r6, [sp, #NEXT_SLOPE]") \
+    LINE("str r7, [sp, #NEXT_SLOPE]") \
     LINE("23:") \
-    SLOPE(BS, XM, YM) \
-    LINE("muls r1, " BS ", r1") \
+    SLOPE("r6", XM, YM) \
+    LINE("muls r1, r7, r1") \
     LINE("asrs r1, r1, #4") \
     LINE("add r1, r8") \
     LINE("movs " BX ", r1") \
+    LINE("movs " BS ", r7") \
     LINE("mov " OX ", r11") \
     LINE("mov " OS ", r9") \
     LINE("mov r1, lr") \
@@ -75,13 +72,13 @@
     LINE("b 23b") \
     LINE("25:")                             /* none above it: r0 from it to the first centre */ \
     SLOPE("r6", XL, YL) \
-    LINE("muls r0, r6, r0") \
+    LINE("muls r0, r7, r0") \
     LINE("asrs r0, r0, #4") \
-    LINE("lsls r7, " XM ", #16") \
-    LINE("adds r0, r0, r7") \
+    LINE("lsls r6, " XM ", #16") \
+    LINE("adds r0, r0, r6") \
     LINE("add r0, r8") \
     LINE("movs " BX ", r0") \
-    LINE("movs " BS ", r6") \
+    LINE("movs " BS ", r7") \
     LINE("mov " OX ", r11") \
     LINE("mov " OS ", r9") \
     LINE("mov r1, r12") \
