@@ -23,8 +23,11 @@ TUILE_INLINE uint32_t pixel_div255(uint32_t x) { return (x * 257u + 257u) >> 16;
 
 #define PIXEL_RGB(red, green, blue) ((uint32_t)(red) << 16 | (uint32_t)(green) << 8 | (uint32_t)(blue))
 
-/* A component to 0 ... most by rounding. */
-TUILE_INLINE uint32_t pixel_steps(uint32_t component, uint32_t most) { return (component * most + 127u) / 255u; }
+/* A component to 0 ... most by rounding, most < 256. */
+TUILE_INLINE uint32_t pixel_steps(uint32_t component, uint32_t most) {
+    const uint32_t sum = component * most + 127u;
+    return FIXED_BY_HALVES ? pixel_div255(sum) : sum / 255u; /* where a division by a constant is none, it is shorter */
+}
 
 TUILE_INLINE uint32_t pixel_swap16(uint32_t x) { return (x >> 8 | x << 8) & 0xffffu; }
 

@@ -81,11 +81,18 @@ uint32_t frame_flat(const tuile_t *t, const record_t *record) {
     return ramp[record->light];
 }
 
+/* A step of a ramp, 0 ... 255. Without long products a division is a function: 2^21 / 63 is less than 0.9 below the factor here,
+ * and the numerator below 2^14, so that the product is less than 1 / 63 too large. */
+TUILE_INLINE uint32_t ramp_light(uint32_t i) {
+    const uint32_t sum = i * 255u + 31u;
+    return FIXED_BY_HALVES ? sum * 33289u >> 21 : sum / 63u;
+}
+
 TUILE_NOINLINE void frame_ramp_make(tuile_t *t, uint32_t material, uint32_t slot) {
     uint16_t *ramp = t->ramps + slot * RAMP_COLOURS;
     const uint8_t *colour = material_colour(t, material);
     for (uint32_t i = 0; i < RAMP_COLOURS; i++) {
-        ramp[i] = (uint16_t)pixel_lit((pixel_kind_t)t->pixel_kind, colour, (i * 255u + 31u) / 63u);
+        ramp[i] = (uint16_t)pixel_lit((pixel_kind_t)t->pixel_kind, colour, ramp_light(i));
     }
     t->ramp_tags[slot] = (int16_t)material;
 }

@@ -11,6 +11,7 @@
  */
 #include "cull.h"
 
+#include "../divide.h"
 #include "model.h"
 #include "wide.h"
 
@@ -25,7 +26,15 @@
 
 /* How far inside of a plane a point is, times the plane's length. */
 PLANE_INLINE int64_t plane_value(const transform_plane_t *plane, const int16_t at[3]) {
-    return fixed_mul_wide(plane->n[0], at[0]) + fixed_mul_wide(plane->n[1], at[1]) + fixed_mul_wide(plane->n[2], at[2]) + plane->d;
+    if (!FIXED_BY_HALVES) {
+        return (int64_t)plane->n[0] * at[0] + (int64_t)plane->n[1] * at[1] + (int64_t)plane->n[2] * at[2] + plane->d;
+    }
+    int32_t high = 0, low = 0; /* of 10 and 14 bits by 16 */
+    for (int i = 0; i < 3; i++) {
+        high += (plane->n[i] >> 14) * at[i];
+        low += (plane->n[i] & 0x3fff) * at[i];
+    }
+    return fixed_shift_left64(high, 14) + low + plane->d;
 }
 
 bool cull_outside(const transform_t *transform, const uint8_t *cluster) {
@@ -113,6 +122,23 @@ bool cull_instance_outside(const tuile_camera_t *camera, const tuile_instance_t 
 
 /* ---- faces that are turned away ---- */
 
+/* x^2 + y^2 + z^2, of 22 bits and a sign each. By halves of 11 bits sums fit in words. */
+TUILE_INLINE uint64_t sum_of_squares(int32_t x, int32_t y, int32_t z) {
+    if (!FIXED_BY_HALVES) { return (uint64_t)((int64_t)x * x + (int64_t)y * y + (int64_t)z * z); }
+    const int32_t xh = x >> 11, yh = y >> 11, zh = z >> 11, xl = x & 0x7ff, yl = y & 0x7ff, zl = z & 0x7ff;
+    const int32_t across = xh * xl + yh * yl + zh * zl;
+    return ((uint64_t)(uint32_t)(xh * xh + yh * yh + zh * zh) << 22) + (uint64_t)fixed_shift_left64(across, 12) +
+           (uint32_t)(xl * xl + yl * yl + zl * zl);
+}
+
+/* n / 64516, rounded up, n <= 64516 * 2^14. Without long products by the upper half: 2^16 / 64516 = 1 + 1036.1 / 2^16. */
+TUILE_INLINE uint32_t divide_cutoff(uint32_t n) {
+    n += 64515u;
+    if (!FIXED_BY_HALVES) { return n / 64516u; }
+    const uint32_t high = n >> 16, quotient = high + (high * 1036u >> 16);
+    return divide_settle(quotient, (int32_t)(n - quotient * 64516u), 64516);
+}
+
 bool cull_faces_away(const transform_t *transform, const uint8_t *cluster) {
     const uint32_t cutoff = cluster[CLUSTER_AT_CUTOFF];
     const int32_t ax = (int8_t)cluster[CLUSTER_AT_AXIS], ay = (int8_t)cluster[CLUSTER_AT_AXIS + 1],
@@ -133,7 +159,6 @@ bool cull_faces_away(const transform_t *transform, const uint8_t *cluster) {
     dot -= room;
     const uint32_t axis_squares = (uint32_t)(ax * ax + ay * ay + az * az);
     if (dot < 0 || axis_squares > AXIS_LENGTH_MAX * AXIS_LENGTH_MAX) { return false; }
-    const uint64_t squares = (uint64_t)(fixed_mul_wide(x, x) + fixed_mul_wide(y, y) + fixed_mul_wide(z, z));
-    const uint32_t scaled = (cutoff * cutoff * axis_squares + 64515u) / 64516u; /* (cutoff / 254)^2 |a|^2, rounded up; < 2^31 */
-    return (uint64_t)fixed_mul_wide(dot, dot) >= scaled * squares;
+    const uint32_t scaled = divide_cutoff(cutoff * cutoff * axis_squares); /* (cutoff / 254)^2 |a|^2, rounded up; <= 2^14 */
+    return (uint64_t)fixed_mul_wide(dot, dot) >= fixed_mul_part(sum_of_squares(x, y, z), scaled);
 }

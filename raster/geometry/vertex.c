@@ -79,13 +79,13 @@ TUILE_INLINE uint8_t next_light(const transform_t *transform, const int8_t **nor
     return vertex_light(transform, n[0], n[1], n[2]);
 }
 
-/* But for its bounds. */
-TUILE_INLINE vertex_octave_t octave_with(const transform_t *transform, unsigned zeros) {
+/* But for its bounds, and whether there is a second one. */
+TUILE_INLINE void octave_set(const transform_t *transform, vertex_octave_t *octave, unsigned zeros) {
     const unsigned shift = (unsigned)(30 - transform->k - (int32_t)zeros);
-    return (vertex_octave_t){.zeros = zeros,
-                             .shift = shift,
-                             .depth_shift = (unsigned)(transform->depth_shift - (int32_t)zeros),
-                             .half = (int32_t)(1u << (shift - 1))};
+    octave->zeros = zeros;
+    octave->shift = shift;
+    octave->depth_shift = (unsigned)(transform->depth_shift - (int32_t)zeros);
+    octave->half = (int32_t)(1u << (shift - 1));
 }
 
 /* False: W is to be projected from fine coordinates. */
@@ -94,7 +94,7 @@ TUILE_INLINE bool octave_of(const transform_t *transform, vertex_octave_t *octav
     if (w < first || w >= last) { return false; }
     const unsigned zeros = fixed_clz32((uint32_t)w); /* >= 1, since w_fast > 0 */
     const uint32_t low = 0x80000000u >> zeros, end = low * 2;
-    *octave = octave_with(transform, zeros);
+    octave_set(transform, octave, zeros);
     octave->first = low > (uint32_t)first ? low : (uint32_t)first;
     octave->range = (end < (uint32_t)last ? end : (uint32_t)last) - octave->first;
     return true;
@@ -112,7 +112,7 @@ static bool octave_of_cluster(const transform_t *transform, vertex_octave_t *oct
     const unsigned zeros = fixed_clz32((uint32_t)w + (uint32_t)reach);
     const uint32_t least = ((uint32_t)w - (uint32_t)reach) >> (30 - zeros); /* in halves of the octave's first number */
     if (least < (ASSEMBLY_THUMB1 ? 1 : 2)) { return false; }
-    *octave = octave_with(transform, zeros);
+    octave_set(transform, octave, zeros);
     octave->second = least < 2;
     return octave->depth_shift <= 21;
 }

@@ -13,8 +13,10 @@ wide_t wide_make(int64_t mantissa, int32_t exponent) {
 
 wide_t wide_multiply(wide_t a, wide_t b) {
     const int64_t mask = ((int64_t)1 << 31) - 1;
-    const int64_t ah = a.mantissa >> 31, al = a.mantissa & mask, bh = b.mantissa >> 31, bl = b.mantissa & mask;
-    return wide_make(ah * bh + ((ah * bl) >> 31) + ((al * bh) >> 31), a.exponent + b.exponent + 62);
+    const int32_t ah = (int32_t)(a.mantissa >> 31), bh = (int32_t)(b.mantissa >> 31); /* 31 bits and a sign */
+    const int32_t al = (int32_t)(a.mantissa & mask), bl = (int32_t)(b.mantissa & mask);
+    return wide_make(fixed_mul_wide(ah, bh) + (fixed_mul_wide(ah, bl) >> 31) + (fixed_mul_wide(al, bh) >> 31),
+                     a.exponent + b.exponent + 62);
 }
 
 wide_t wide_add(wide_t a, wide_t b) {
