@@ -22,6 +22,7 @@ typedef struct small_run {
     int32_t left, width;   /* small_tile_t */
     uint32_t given;
     small_place_t place;
+    uint16_t *right; /* where the number of the next face handed to the next column is put; NULL: there is none */
 } small_run_t;
 
 /* Draws faces from run->place.list on, with light at the corners or flat, until it meets one that it leaves to the caller: behind

@@ -26,7 +26,7 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
                    sizeof(vertex_t) == 8 && TRIANGLE_SMALL_DEPTH == 1 << 17 && SHORT_SIDE == 512 && DIVIDE_TABLE == 512,
                "numbers in the assembly");
 _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, record_bytes) == 32 &&
-                   offsetof(small_run_t, given) == 56 && offsetof(small_run_t, place) == 60 && sizeof(small_run_t) == 72,
+                   offsetof(small_run_t, given) == 56 && offsetof(small_run_t, place) == 60 && sizeof(small_place_t) == 12,
                "offsets in the assembly");
 
 /* clang-format off */

@@ -46,6 +46,7 @@ typedef struct textured_run {
     textured_run_level_t levels[TEXTURED_RUN_LEVELS + 1]; /* from number `first_level` on, one behind the last wanted at most; such
                                                            * as are not made have lower 31, always 0; upper ends at 31 */
     uint32_t first_level;
+    uint16_t *right; /* where the number of the next face handed to the next column is put; NULL: there is none */
 } textured_run_t;
 
 /* What rounds red, blue and, by its low half, green. The pixels of a row are counted in the bits from 22 on, less 1. */

@@ -23,7 +23,8 @@ TUILE_INLINE textured_run_t smalls_textured_run(const tuile_t *t, walk_t *walk, 
                             .stride = (int32_t)(tile->stride * (small_int_t)sizeof(uint16_t)),
                             .left = tile->left,
                             .width = tile->width,
-                            .place = smalls_place(walk)};
+                            .place = smalls_place(walk),
+                            .right = smalls_place_right(t, walk)};
 }
 
 /* What sources of one instance share. */
@@ -98,7 +99,7 @@ static inline bool smalls_textured_beside(tuile_t *t, walk_t *walk, textured_run
         return false;
     }
     const bool reaches = small_fill_clamped(&face, v0, v1, v2, tile, SMALL_TEXTURED, true, 0, &paint);
-    smalls_place_pass(t, walk, &run->place, reaches);
+    smalls_place_pass(t, walk, &run->place, &run->right, reaches);
     return true;
 }
 
@@ -135,7 +136,7 @@ static inline void smalls_textured_thumb(tuile_t *t, walk_t *walk, uint32_t limi
         if (material != number) { smalls_textured_material(t, &run); }
         material = number;
     }
-    smalls_place_end(t, walk, &run.place);
+    smalls_place_end(t, walk, &run.place, run.right);
     if (run.place.count) { t->textured_any = true; }
 }
 

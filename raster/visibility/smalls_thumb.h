@@ -20,7 +20,8 @@ TUILE_INLINE small_run_t smalls_run(tuile_t *t, walk_t *walk, uint32_t limit, co
                          .material = -1,
                          .left = tile->left,
                          .width = tile->width,
-                         .place = smalls_place(walk)};
+                         .place = smalls_place(walk),
+                         .right = smalls_place_right(t, walk)};
 }
 
 TUILE_INLINE void smalls_run_draw(small_run_t *run, small_kind_t kind) {
@@ -56,7 +57,7 @@ static inline bool smalls_beside(tuile_t *t, walk_t *walk, small_run_t *run, con
     small_face_t face;
     if (!small_open(&face, v0, v1, v2, tile, 0)) { return false; }
     const bool reaches = small_fill_clamped(&face, v0, v1, v2, tile, kind, kind == SMALL_GOURAUD, record->light, &paint);
-    smalls_place_pass(t, walk, &run->place, reaches);
+    smalls_place_pass(t, walk, &run->place, &run->right, reaches);
     return true;
 }
 
@@ -83,7 +84,7 @@ static inline void smalls_thumb(tuile_t *t, walk_t *walk, uint32_t limit, small_
         }
         if (!smalls_beside(t, walk, &run, record, &tile, kind)) { break; }
     }
-    smalls_place_end(t, walk, &run.place);
+    smalls_place_end(t, walk, &run.place, run.right);
 }
 
 #endif
