@@ -34,24 +34,47 @@ TUILE_INLINE void list_append(const tuile_t *t, list_end_t *list, uint32_t numbe
     list->end = &record->next;
 }
 
-/* Behind all records of the column where it begins. Records come in their order. False: the face is not a small triangle. */
-static inline bool columns_enter(const tuile_t *t, uint32_t number) {
-    record_t *record = frame_record(t, number);
-    if (!frame_record_is_triangle(record)) { return false; }
-    const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
-    if (!t->small && !triangle_sides_short(v0, v1, v2)) { return false; }
-    int32_t least = v0->x < v1->x ? v0->x : v1->x;
-    least = edge_row(least < v2->x ? least : v2->x);
-    uint16_t *ring = &columns_lists(t)[least > 0 ? (uint32_t)least / t->config.tile_width : 0];
-    if (*ring == RECORD_NONE) {
-        record->next = (uint16_t)(number + 1u);
-    } else {
-        record_t *last = frame_record(t, *ring - 1u);
-        record->next = last->next;
-        last->next = (uint16_t)(number + 1u);
+/* Into which column pixels go, without a division for each: pixel / width = (pixel * factor) >> shift, as far as windows reach
+ * (2^11), since factor * width is above 2^22 by less than width. */
+typedef struct columns_scale {
+    uint32_t factor;
+    unsigned shift;
+} columns_scale_t;
+
+static inline columns_scale_t columns_scale(uint32_t width) {
+    if (width == 1) { return (columns_scale_t){1, 0}; } /* 2^22 times a pixel would be too large */
+    return (columns_scale_t){((UINT32_C(1) << 22) + width - 1) / width, 22};
+}
+_Static_assert(TUILE_WINDOW_MAX_PX <= 1 << 11, "products of a pixel and a factor are below 2^32");
+
+/* Of a list whose records come in their order, those up to record `limit` into the rings of the columns where they begin. Returns
+ * the rest, whose first face is none of the limit, or not a small triangle. */
+static inline uint16_t columns_enter(const tuile_t *t, uint16_t list, uint32_t limit) {
+    const columns_scale_t scale = columns_scale(t->config.tile_width);
+    uint16_t *const lists = columns_lists(t);
+    uint8_t *const arena_end = t->arena_end;
+    const vertex_t *const vertices = t->vertices;
+    const uintptr_t record_bytes = t->record_bytes;
+    const bool small = t->small;
+    for (uintptr_t number = list; (uint32_t)number - 1u < limit;) {
+        record_t *record = (record_t *)(void *)(arena_end - number * record_bytes);
+        const vertex_t *v0 = vertices + record->v0, *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+        const uint16_t next = record->next;
+        if (!frame_record_is_triangle(record) || (!small && !triangle_sides_short(v0, v1, v2))) { return (uint16_t)number; }
+        int32_t least = v0->x < v1->x ? v0->x : v1->x;
+        least = edge_row(least < v2->x ? least : v2->x);
+        uint16_t *const ring = lists + (least > 0 ? ((uint32_t)least * scale.factor) >> scale.shift : 0);
+        if (*ring == RECORD_NONE) {
+            record->next = (uint16_t)number;
+        } else {
+            record_t *last = (record_t *)(void *)(arena_end - *ring * record_bytes);
+            record->next = last->next;
+            last->next = (uint16_t)number;
+        }
+        *ring = (uint16_t)number;
+        number = list = next;
     }
-    *ring = (uint16_t)(number + 1u);
-    return true;
+    return list;
 }
 
 /* The ring of a column as a list; it is empty then. */

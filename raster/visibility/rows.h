@@ -360,12 +360,7 @@ TUILE_INLINE void row_gather(tuile_t *t, int32_t top, unsigned tested) {
     walk_begin(t, &walk);
     if (tested && t->columned) { columns_begin(t); }
     for (;;) {
-        while (tested && t->columned && walk.list - 1u < stream_next(walk.old, walk.old_end)) {
-            const uint32_t number = walk.list - 1u;
-            const uint16_t next = frame_record(t, number)->next;
-            if (!columns_enter(t, number)) { break; }
-            walk.list = next;
-        }
+        if (tested && t->columned) { walk.list = columns_enter(t, walk.list, stream_next(walk.old, walk.old_end)); }
         state = walk_next(t, &walk, &local, top, &record, tested);
         if (state == NULL) { break; }
         walk_keep(t, &walk, state);
