@@ -43,6 +43,7 @@ typedef struct textured_rows {
     ptrdiff_t colour; /* from a pixel's depth to its colour, bytes */
     textured_rows_level_t level;
     const uint16_t *palette;
+    ptrdiff_t first, end; /* the tile's columns, in columns of the face, where it touches others */
 } textured_rows_t;
 
 TUILE_INLINE uint16_t *textured_rows_at(uint16_t *pixels, ptrdiff_t bytes) { return (uint16_t *)(void *)((char *)pixels + bytes); }
@@ -71,9 +72,9 @@ TUILE_INLINE textured_side_t textured_side_below(const textured_bend_t *b, int32
                          16 * row - b->top - (int32_t)b->mid_y);
 }
 
-/* The rows from bend->row < bend->until to its end. dx, map_dx: per pixel. */
+/* The rows from bend->row < bend->until to its end. dx, map_dx: per pixel. clamp: the face touches columns beside the tile. */
 TUILE_INLINE void textured_rows_fill(textured_rows_t *rows, const textured_bend_t *bend, uint64_t dx, uint32_t map_dx,
-                                     bool paletted) {
+                                     bool paletted, bool clamp) {
     const uint32_t shift = rows->level.shift;
     const void *const texels = rows->level.texels;
     const uint16_t *const palette = rows->palette;
@@ -89,6 +90,10 @@ TUILE_INLINE void textured_rows_fill(textured_rows_t *rows, const textured_bend_
             TEXTURED_UNKNOWN(from); /* is widened once, by the load */
             TEXTURED_UNKNOWN(to);
             from >>= 20, to >>= 20;
+            if (clamp) {
+                from = from > rows->first ? from : rows->first;
+                to = to < rows->end ? to : rows->end;
+            }
             if (TUILE_LIKELY(from < to)) {
                 rows->place.vector = place;
                 __asm__("" : "+m"(rows->place));

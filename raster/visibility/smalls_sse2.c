@@ -71,7 +71,7 @@ TUILE_INLINE sse2_longs_t load_quad(const void *at) {
 typedef struct level {
     sse2_longs_t units; /* s_unit, 0, t_unit, 0 */
     uint64_t up, from_corner;
-    uint64_t upper_times, upper_more, lower_times, lower_more; /* < 2^40; area < 2^18 */
+    uint64_t upper_times, upper_more, lower_times, lower_more; /* up to 2^40; area < 2^18 */
     textured_rows_level_t rows;
 } level_t;
 
@@ -98,7 +98,8 @@ typedef struct loop {
     int32_t height;  /* rows */
     uint32_t limit;  /* the loop ends at the record of this number */
     uint32_t count;  /* faces that were drawn */
-    uint32_t known;  /* not 0: all are short, and inside the tile's columns */
+    bool all_short;
+    bool crosses; /* the face touches columns beside the tile */
     small_tile_t tile;
 } loop_t;
 
@@ -119,7 +120,8 @@ static TUILE_NOINLINE void loop_open(loop_t *loop, const tuile_t *t, uint32_t li
     loop->height = t->tile.bottom - t->tile.top;
     loop->limit = limit;
     loop->count = 0;
-    loop->known = t->tile_columns == 1 && t->small;
+    loop->crosses = false;
+    loop->all_short = t->tile_columns > 1 || t->small; /* columns.h has none but those */
 }
 
 TUILE_INLINE bool level_wanted(const level_t *level, uint64_t texels, uint64_t pixels) {
@@ -168,6 +170,10 @@ static TUILE_NOINLINE bool loop_source(loop_t *loop, tuile_t *t, const record_t 
     return true;
 }
 
+static TUILE_NOINLINE void loop_hand_on(tuile_t *t, walk_t *walk, uint32_t number) {
+    columns_hand_on(t, number, (uint32_t)t->tile.left / t->config.tile_width, t->tile.bottom, &walk->right, &walk->left);
+}
+
 /* A face that is left to C. False: it is not to be drawn so. */
 static TUILE_NOINLINE bool loop_beside(const loop_t *loop, tuile_t *t, walk_t *walk, uint32_t number, const record_t *record) {
     const vertex_t *v0 = t->vertices + record->v0, *v1 = v0 + record->d1, *v2 = v0 + record->d2;
@@ -180,7 +186,7 @@ static TUILE_NOINLINE bool loop_beside(const loop_t *loop, tuile_t *t, walk_t *w
     }
     const bool reaches = small_fill(&face, v0, v1, v2, &loop->tile, SMALL_TEXTURED, true, 0, &paint, true);
     if (t->tile_columns > 1) {
-        columns_hand_on(t, number, (uint32_t)t->tile.left / t->config.tile_width, t->tile.bottom, &walk->right, &walk->left);
+        loop_hand_on(t, walk, number);
     } else if (reaches) {
         list_append(t, &walk->left, number);
     }
@@ -203,10 +209,22 @@ static TUILE_NOINLINE bool loop_level_find(loop_t *loop, tuile_t *t, uint32_t te
     return level_wanted(loop->level, texels, area);
 }
 
-/* Is it short, and inside the tile's columns? */
-static TUILE_NOINLINE bool loop_small(const loop_t *loop, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2) {
+/* Is it short? */
+static TUILE_NOINLINE bool loop_small(loop_t *loop, const vertex_t *v0, const vertex_t *v1, const vertex_t *v2) {
     const small_corners_t c = {v0->x, v0->y, v1->x - v0->x, v1->y - v0->y, v2->x - v0->x, v2->y - v0->y};
-    return small_short(&c) && small_inside(&c, &loop->tile);
+    const small_int_t column = (c.x0 + 7) >> 4;
+    loop->crosses = !small_inside(&c, &loop->tile);
+    loop->rows.first = loop->tile.first - column;
+    loop->rows.end = loop->tile.end - column;
+    return loop->all_short || small_short(&c);
+}
+
+static TUILE_NOINLINE void loop_fill_clamped(textured_rows_t *rows, const textured_bend_t *bend, uint64_t dx, uint32_t map_dx) {
+    if (rows->palette) {
+        textured_rows_fill(rows, bend, dx, map_dx, true, true);
+    } else {
+        textured_rows_fill(rows, bend, dx, map_dx, false, true);
+    }
 }
 
 /* ---- a face ---- */
@@ -287,7 +305,8 @@ TUILE_INLINE face_map_t map_make(const loop_t *loop, sse2_longs_t determinants, 
 
 /* ---- the loop ---- */
 
-void smalls_textured_sse2(tuile_t *t, walk_t *walk, uint32_t limit) {
+/* known: all faces are short, and touch no column beside the tile; a constant. */
+TUILE_INLINE void loop_draw(tuile_t *t, walk_t *walk, uint32_t limit, bool known) {
     const sse2_words_t corner_fields = {-1, -1, 255, 0, 0, 0, 0, 0}, ones = {1, 1, 1, 1, 0, 0, 0, 0};
     loop_t loop;
     uint32_t number = walk->list - (uint32_t)1;
@@ -314,7 +333,7 @@ void smalls_textured_sse2(tuile_t *t, walk_t *walk, uint32_t limit) {
             at_mid = at_low, at_low = at_v1;
             left = 0;
         }
-        if (TUILE_UNLIKELY(!loop.known) && !loop_small(&loop, v0, mid, low)) { goto beside; }
+        if (!known && !loop_small(&loop, v0, mid, low)) { goto beside; }
 
         /* s of both, t of both: what does not fit into a word is more than any face is across */
         const sse2_longs_t c0 = load_long(texcoords),
@@ -388,16 +407,22 @@ void smalls_textured_sse2(tuile_t *t, walk_t *walk, uint32_t limit) {
             loop.rows.edges_down = HALVES(TWO(a.slope, b.slope), map.steps);
             loop.rows.place.vector = (sse2_quads_t){triangle_shade_pack(depth, light), (uintptr_t)pixel};
             loop.rows.place_down = (sse2_quads_t){triangle_shade_pack(depth_y, light_y), (uint64_t)loop.stride};
-            if (loop.rows.palette) {
-                textured_rows_fill(&loop.rows, &bend, triangle_shade_pack(depth_x, light_x), map.steps[0], true);
+            if (!known && loop.crosses) {
+                loop_fill_clamped(&loop.rows, &bend, triangle_shade_pack(depth_x, light_x), map.steps[0]);
+            } else if (loop.rows.palette) {
+                textured_rows_fill(&loop.rows, &bend, triangle_shade_pack(depth_x, light_x), map.steps[0], true, false);
             } else {
-                textured_rows_fill(&loop.rows, &bend, triangle_shade_pack(depth_x, light_x), map.steps[0], false);
+                textured_rows_fill(&loop.rows, &bend, triangle_shade_pack(depth_x, light_x), map.steps[0], false, false);
             }
         }
         loop.count++;
         const uint32_t drawn = number;
         number = record->next - (uint32_t)1;
-        if (row_end > loop.height) { list_append(t, &walk->left, drawn); }
+        if (!known && loop.crosses && t->tile_columns > 1) {
+            loop_hand_on(t, walk, drawn);
+        } else if (row_end > loop.height) {
+            list_append(t, &walk->left, drawn);
+        }
         continue;
     beside:
         if (!loop_beside(&loop, t, walk, number, record)) { break; }
@@ -407,6 +432,17 @@ void smalls_textured_sse2(tuile_t *t, walk_t *walk, uint32_t limit) {
     walk->list = (uint16_t)(number + 1);
     t->stats.faces_setup += loop.count;
     if (loop.count) { t->textured_any = true; }
+}
+
+static TUILE_NOINLINE void loop_draw_known(tuile_t *t, walk_t *walk, uint32_t limit) { loop_draw(t, walk, limit, true); }
+static TUILE_NOINLINE void loop_draw_any(tuile_t *t, walk_t *walk, uint32_t limit) { loop_draw(t, walk, limit, false); }
+
+void smalls_textured_sse2(tuile_t *t, walk_t *walk, uint32_t limit) {
+    if (t->tile_columns == 1 && t->small) {
+        loop_draw_known(t, walk, limit);
+    } else {
+        loop_draw_any(t, walk, limit);
+    }
 }
 
 #endif
