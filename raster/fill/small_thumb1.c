@@ -62,7 +62,7 @@ const uint8_t small_thumb1_shifts[512] = {
 #define ADDRESS LINE("lsls r0, r0, #3")
 
 /* From column 0 of the row above; 31: from the first row's on. */
-#define ROWS \
+#define ROWS(SPAN_OF, ENTRY) \
     UNIFIED \
     LINE("30: mov r7, sp") \
     LINE("ldm r7, {r0, r1, r2, r5, r6, r7}") \
@@ -72,8 +72,8 @@ const uint8_t small_thumb1_shifts[512] = {
     LINE("add lr, r5") \
     LINE("adds r7, r7, r6") \
     LINE("str r7, [sp, #ROW]") \
-    SPAN \
-    LINE("31: mov r1, r8") \
+    SPAN_OF(ENTRY) \
+    LINE("mov r1, r8") \
     LINE("muls r1, r5") \
     LINE("add r1, r12") \
     LINE("mov r2, r9") \
@@ -115,21 +115,22 @@ __attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
     __asm__ volatile(UNIFIED
         DEPTHS
         LINE("mov r9, lr")
-        LINE("32: ldr r2, [sp, #FAR_LIGHT]")
+        LINE("19: ldr r2, [sp, #FAR_LIGHT]")
         LINE("mov lr, r2")
         LINE("add r7, sp, #ROW")
         LINE("ldm r7!, {r3, r5, r6}")
         LINE("mov r7, r3")
         LINE("ldr r3, [sp, #RAMP]")
         LINE("ldr r4, [sp, #COLOUR]")
-        LINE("b 31f"));
+        LINE("ldr r0, [sp, #ROWS_AT]")
+        LINE("mov pc, r0"));
 
-    __asm__ volatile(ROWS);
+    __asm__ volatile(ROWS(SPAN, "31") ROWS(SPAN_CLAMPED, "32"));
 
     __asm__ volatile(UNIFIED
         FAR(FAR_LIGHTS, LINE("ldr r7, [sp, #FAR_LIGHT_DX]") LINE("mov r9, r7"), "1", LINE("str r5, [sp, #LIGHT_DY]"))
         FAR_LIGHT_OF
-        BESIDE());
+        BESIDE(, ADDRESS));
 }
 
 /* clang-format on */

@@ -26,7 +26,8 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
                    sizeof(vertex_t) == 8 && TRIANGLE_SMALL_DEPTH == 1 << 17 && SHORT_SIDE == 512 && DIVIDE_TABLE == 512,
                "numbers in the assembly");
 _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, record_bytes) == 32 &&
-                   offsetof(small_run_t, given) == 56 && offsetof(small_run_t, place) == 60 && sizeof(small_place_t) == 12,
+                   offsetof(small_run_t, given) == 56 && offsetof(small_run_t, place) == 60 &&
+                   offsetof(small_run_t, right) == 72 && sizeof(small_place_t) == 12,
                "offsets in the assembly");
 
 /* clang-format off */
@@ -71,22 +72,27 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
     LINE(".equ LEFT, 164") \
     LINE(".equ WIDTH, 168") \
     LINE(".equ GIVEN, 172") \
-    LINE(".equ LIST, 176")          /* number + 1 of the face, then the end of those that reach below, then the count */ \
+    LINE(".equ LIST, 176")          /* number + 1 of the face; as small_run_t the end of those that reach below, the count, right */ \
     LINE(".equ END, 180") \
     LINE(".equ COUNT, 184") \
-    LINE(".equ RUN, 188") \
-    LINE(".equ NEXT, 192")          /* first word of the record: number + 1 of the next in its lower half */ \
-    LINE(".equ BACK, 196")          /* -stride */ \
-    LINE(".equ TABLE, 200")         /* divide_table, small_thumb1_shifts */ \
-    LINE(".equ SHIFTS, 204") \
-    LINE(".equ START, 208")         /* small_start(0) */ \
-    LINE(".equ ONES, 212")          /* 2^31 - 1 */ \
-    LINE(".equ NEAR, 216")          /* TRIANGLE_SMALL_DEPTH */ \
-    LINE(".equ VALUE, 220")         /* flat: the colour */ \
-    LINE(".equ FRACTION, 224")      /* of the reciprocal: divide_area_t's f / 2^16, and area */ \
-    LINE(".equ DIVISOR, 228") \
-    LINE(".equ SIDES, 232")         /* divide_sides */ \
-    LINE(".equ FRAME, 236") \
+    LINE(".equ RIGHT, 188") \
+    LINE(".equ RUN, 192") \
+    LINE(".equ NEXT, 196")          /* first word of the record: number + 1 of the next in its lower half */ \
+    LINE(".equ BACK, 200")          /* -stride */ \
+    LINE(".equ TABLE, 204")         /* divide_table, small_thumb1_shifts */ \
+    LINE(".equ SHIFTS, 208") \
+    LINE(".equ START, 212")         /* small_start(0) */ \
+    LINE(".equ ONES, 216")          /* 2^31 - 1 */ \
+    LINE(".equ NEAR, 220")          /* TRIANGLE_SMALL_DEPTH */ \
+    LINE(".equ VALUE, 224")         /* flat: the colour */ \
+    LINE(".equ FRACTION, 228")      /* of the reciprocal: divide_area_t's f / 2^16, and area */ \
+    LINE(".equ DIVISOR, 232") \
+    LINE(".equ SIDES, 236")         /* divide_sides */ \
+    LINE(".equ ROWS_AT, 240")       /* address of the loop over rows, as they are clamped or not */ \
+    LINE(".equ HANDED, 244")        /* 1: the face is in the list of RIGHT already */ \
+    LINE(".equ CLAMP_LEFT, 248")    /* the tile's columns, from the face's own */ \
+    LINE(".equ CLAMP_RIGHT, 252") \
+    LINE(".equ FRAME, 260") \
     LINE(".equ RUN_STRIDE, 28") \
     LINE(".equ RUN_LIST, 60")
 
@@ -111,8 +117,8 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
     LINE("stm r1!, {r2}") \
     LINE("ldm r0!, {r2-r7}") \
     LINE("stm r1!, {r2-r7}") \
-    LINE("ldm r0!, {r2-r5}")        /* given, list, end, count */ \
-    LINE("stm r1!, {r2-r5}") \
+    LINE("ldm r0!, {r2-r6}")        /* given, list, end, count, right */ \
+    LINE("stm r1!, {r2-r6}") \
     LINE("ldr r4, =divide_table") \
     LINE("ldr r5, =small_thumb1_shifts") \
     LINE("ldr r6, =0xfffc0") \
@@ -123,6 +129,10 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
     LINE("str r2, [sp, #NEAR]") \
     LINE("ldr r2, =divide_sides") \
     LINE("str r2, [sp, #SIDES]") \
+    LINE("ldr r2, =31f") \
+    LINE("str r2, [sp, #ROWS_AT]") \
+    LINE("movs r2, #0") \
+    LINE("str r2, [sp, #HANDED]") \
     LINE("ldr r0, [sp, #LIST]") \
     LINE("b 11f") \
     LINE(".ltorg") \
@@ -131,8 +141,8 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
     LINE("90: ldr r0, [sp, #RUN]") \
     LINE("adds r0, #RUN_LIST") \
     LINE("add r7, sp, #LIST") \
-    LINE("ldm r7!, {r1, r2, r3}") \
-    LINE("stm r0!, {r1, r2, r3}") \
+    LINE("ldm r7!, {r1-r4}") \
+    LINE("stm r0!, {r1-r4}") \
     LINE("add sp, #FRAME") \
     LINE("pop {r4-r7}") \
     LINE("mov r8, r4") \
@@ -242,6 +252,20 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
     LINE("muls r7, " DX) \
     LINE("asrs r7, " X)
 
+/* The face's record, behind all others of a list. RECORD: r0 times the size of a record. */
+#define APPEND(LIST_END, RECORD) \
+    LINE("push {r0-r3}") \
+    LINE("ldr r0, [sp, #16 + LIST]") \
+    LINE("ldr r2, [sp, #16 + " LIST_END "]") \
+    LINE("strh r0, [r2]") \
+    RECORD \
+    LINE("ldr r1, [sp, #16 + ARENA]") \
+    LINE("subs r1, r1, r0") \
+    LINE("movs r3, #0") \
+    LINE("strh r3, [r1]")           /* its next */ \
+    LINE("str r1, [sp, #16 + " LIST_END "]") \
+    LINE("pop {r0-r3}")
+
 /* The sides of a triangle whose mid corner is (XM, YM), on side BEND, and its lowest one (XL, YL), OTHER being the other side, each
  * with the place of its slope. Then the first row that is not empty: r5 its first column, r6 pixels. RECORD: r0 times the size of a
  * record. */
@@ -294,17 +318,10 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
     LINE("ble 26f") \
     LINE("b 50f") \
     LINE("20: subs r7, r7, r6")     /* it reaches below the tile */ \
-    LINE("push {r0-r3}") \
-    LINE("ldr r0, [sp, #16 + LIST]") \
-    LINE("ldr r2, [sp, #16 + END]") \
-    LINE("strh r0, [r2]") \
-    RECORD \
-    LINE("ldr r1, [sp, #16 + ARENA]") \
-    LINE("subs r1, r1, r0") \
-    LINE("movs r3, #0") \
-    LINE("strh r3, [r1]")           /* its next */ \
-    LINE("str r1, [sp, #16 + END]") \
-    LINE("pop {r0-r3}") \
+    LINE("ldr r6, [sp, #HANDED]") \
+    LINE("cmp r6, #0") \
+    LINE("bne 21b") \
+    APPEND("END", RECORD) \
     LINE("b 21b") \
     LINE("25:") \
     SIDE(XL, YL, YL)                /* no row above the bend; r6: from it to the first centre */ \
@@ -349,14 +366,36 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
 #define BENDS_RIGHT(RECORD) \
     LINE("40:") EDGES("r4", "r5", "r2", "r3", "r11", "SLOPE_RIGHT", "r10", "SLOPE_LEFT", RECORD)
 
-/* Whether the row of the sides is empty; r5 its first column, r6 pixels. */
-#define SPAN \
+/* The row of the sides: r5 its first column, r6 pixels, if there are any. ENTRY: of the first row, which has them already. */
+#define SPAN(ENTRY) \
     LINE("mov r5, r10") \
     LINE("asrs r5, r5, #20") \
     LINE("mov r6, r11") \
     LINE("asrs r6, r6, #20") \
     LINE("subs r6, r6, r5") \
-    LINE("ble 35f")
+    LINE("ble 35f") \
+    LINE(ENTRY ":")
+
+/* Likewise, of columns of the tile alone; r0 is lost. */
+#define SPAN_CLAMPED(ENTRY) \
+    LINE("mov r5, r10") \
+    LINE("asrs r5, r5, #20") \
+    LINE("mov r6, r11") \
+    LINE("asrs r6, r6, #20") \
+    LINE("29: ldr r0, [sp, #CLAMP_LEFT]") \
+    LINE("cmp r5, r0") \
+    LINE("bge 28f") \
+    LINE("mov r5, r0") \
+    LINE("28: ldr r0, [sp, #CLAMP_RIGHT]") \
+    LINE("cmp r6, r0") \
+    LINE("ble 27f") \
+    LINE("mov r6, r0") \
+    LINE("27: subs r6, r6, r5") \
+    LINE("ble 35f") \
+    LINE("b 26f") \
+    LINE(ENTRY ": adds r6, r6, r5") \
+    LINE("b 29b") \
+    LINE("26:")
 
 /* Behind a pixel, and behind a row. */
 #define ENDS \
@@ -386,45 +425,81 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
     LINE("str r6, [sp, #SLOPE_RIGHT]") \
     LINE("b 30b")
 
-/* Another material, or a face of which nothing is known: is it short, and inside the tile's columns? */
-#define BESIDE(LIGHT) \
+/* Another material, or a face of which nothing is known: is it short? Inside the tile's columns it is drawn as those that are known
+ * to be so; else it is clamped to them, and handed to the right where it reaches farther. */
+#define BESIDE(LIGHT, RECORD) \
+    LINE("84: b 90b") \
     LINE("80: ldr r7, [sp, #MATERIAL]") \
     LINE("cmp r1, r7") \
-    LINE("bne 84f") \
+    LINE("bne 84b") \
     LIGHT \
-    CORNERS(LINE("beq 84f")) \
+    CORNERS(LINE("beq 84b")) \
     DIFFERENCES(ANY_X) \
     LINE("ldr r1, =1022") \
     LINE("mov r8, r1") \
     LINE("ldr r7, =511") \
     LINE("adds r1, r2, r7") \
     LINE("cmp r1, r8") \
-    LINE("bhi 84f") \
+    LINE("bhi 84b") \
     LINE("adds r1, r4, r7") \
     LINE("cmp r1, r8") \
-    LINE("bhi 84f") \
+    LINE("bhi 84b") \
     LINE("subs r1, r2, r4") \
     LINE("adds r1, r1, r7") \
     LINE("cmp r1, r8") \
-    LINE("bhi 84f") \
+    LINE("bhi 84b") \
     LINE("movs r1, r3") \
     LINE("orrs r1, r5") \
     LINE("lsrs r1, r1, #9") \
-    LINE("bne 84f") \
+    LINE("bne 84b") \
     LINE("ldr r1, [sp, #WIDTH]") \
     LINE("mov r8, r1") \
     LINE("ldr r1, [sp, #LEFT]") \
     LINE("subs r1, r0, r1") \
     LINE("cmp r1, r8") \
-    LINE("bhs 84f") \
+    LINE("bhs 85f") \
     LINE("adds r7, r1, r2") \
     LINE("cmp r7, r8") \
-    LINE("bhs 84f") \
+    LINE("bhs 85f") \
     LINE("adds r7, r1, r4") \
     LINE("cmp r7, r8") \
-    LINE("bhs 84f") \
+    LINE("bhs 85f") \
+    LINE("movs r1, #0") \
+    LINE("str r1, [sp, #HANDED]") \
+    LINE("ldr r1, =31b") \
+    LINE("82: str r1, [sp, #ROWS_AT]") \
     LINE("b 12b") \
-    LINE("84: b 90b") \
+    LINE("85: cmp r1, r8")          /* it is not inside; does it reach beyond the right edge? */ \
+    LINE("bge 86f") \
+    LINE("adds r7, r1, r2") \
+    LINE("cmp r7, r8") \
+    LINE("bge 86f") \
+    LINE("adds r7, r1, r4") \
+    LINE("cmp r7, r8") \
+    LINE("blt 87f") \
+    LINE("86: ldr r7, [sp, #RIGHT]") \
+    LINE("cmp r7, #0") \
+    LINE("beq 87f") \
+    APPEND("RIGHT", RECORD) \
+    LINE("movs r1, #1") \
+    LINE("b 88f") \
+    LINE("87: movs r1, #0") \
+    LINE("88: str r1, [sp, #HANDED]") \
+    LINE("movs r1, #8") \
+    LINE("subs r1, r1, r0") \
+    LINE("asrs r1, r1, #4")         /* -column */ \
+    LINE("ldr r7, [sp, #LEFT]") \
+    LINE("adds r7, #7") \
+    LINE("asrs r7, r7, #4") \
+    LINE("adds r1, r1, r7") \
+    LINE("str r1, [sp, #CLAMP_LEFT]") \
+    LINE("ldr r7, [sp, #WIDTH]") \
+    LINE("asrs r7, r7, #4") \
+    LINE("subs r7, #1") \
+    LINE("adds r1, r1, r7") \
+    LINE("str r1, [sp, #CLAMP_RIGHT]") \
+    LINE("ldr r1, =32b") \
+    LINE("b 82b") \
     LINE(".ltorg")
 
 /* clang-format on */

@@ -32,10 +32,10 @@
     LINE("lsls r1, r1, #1") \
     LINE("ldrh r1, [r7, r1]") \
     LINE("cmp r1, #0") \
-    LINE("beq 84f") \
+    LINE("beq 84b") \
     LINE("81: str r1, [sp, #VALUE]")
 
-#define ROWS \
+#define ROWS(SPAN_OF, ENTRY) \
     UNIFIED \
     LINE("30: mov r7, sp") \
     LINE("ldm r7!, {r0, r1, r2, r5}") \
@@ -43,8 +43,8 @@
     LINE("add r11, r1") \
     LINE("add r12, r2") \
     LINE("add lr, r5") \
-    SPAN \
-    LINE("31: mov r1, r8") \
+    SPAN_OF(ENTRY) \
+    LINE("mov r1, r8") \
     LINE("muls r1, r5") \
     LINE("add r1, r12") \
     LINE("lsls r0, r5, #1") \
@@ -77,18 +77,19 @@ __attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
 
     __asm__ volatile(UNIFIED
         DEPTHS
-        LINE("32: add r7, sp, #ROW")
+        LINE("19: add r7, sp, #ROW")
         LINE("ldm r7!, {r3, r5, r6}")
         LINE("mov lr, r3")
         LINE("ldr r3, [sp, #VALUE]")
         LINE("ldr r4, [sp, #COLOUR]")
-        LINE("b 31f"));
+        LINE("ldr r0, [sp, #ROWS_AT]")
+        LINE("mov pc, r0"));
 
-    __asm__ volatile(ROWS);
+    __asm__ volatile(ROWS(SPAN, "31") ROWS(SPAN_CLAMPED, "32"));
 
     __asm__ volatile(UNIFIED
         FAR(, , "0", )
-        BESIDE(GIVEN_COLOUR));
+        BESIDE(GIVEN_COLOUR, RECORD));
 }
 
 /* clang-format on */

@@ -271,7 +271,7 @@
     FAR_GRADIENTS("64f", "mov r8, r7", "DEPTH_DY") \
     LINE("mov r12, r5") \
     END \
-    LINE("b 32b") \
+    LINE("b 19b") \
     LINE("77: add r0, sp, #CORNER0")     /* left to C */ \
     LINE("movs r1, #" CALL) \
     LINE("bl small_thumb1_far") \
@@ -282,7 +282,7 @@
     LINE("str r2, [sp, #DEPTH_DY]") \
     LEFT_TO_C \
     END \
-    LINE("b 32b") \
+    LINE("b 19b") \
     /* r1: numerator of depth; r7 its gradient, r5 divided by 2^16; r2 and r4 are kept */ \
     LINE("64: movs r0, r1") \
     PRODUCT("r1", "r3", "r6", LINE("ldr r3, [sp, #FRACTION]") LINE("muls r3, r1") LINE("asrs r3, r3, #15") LINE("adds r5, r5, r3")) \
