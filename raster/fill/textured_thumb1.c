@@ -403,7 +403,16 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LIGHT_OF_FACE
         LINE("58: ldr r0, [sp, #DOWN]")
         LINE("cmp r0, #0")
-        LINE("bne 72f")
+        LINE("beq 59f")
+        LINE("ldr r2, [sp, #DEPTH_DY]")
+        LINE("muls r2, r0, r2")
+        LINE("adds r1, r1, r2")
+        LINE("ldr r2, [sp, #LIGHT_DY]")
+        LINE("muls r2, r0, r2")
+        LINE("adds r3, r3, r2")
+        LINE("ldr r2, [sp, #MAP_DY]")
+        LINE("muls r2, r0, r2")
+        LINE("add r10, r2")
 
         /* rows */
         LINE("59: ldr r0, [sp, #ROUND]")
@@ -421,18 +430,6 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("beq 62f")
         LINE("b 73f")
         LINE("62: b 74f")
-
-        /* r0 rows down */
-        LINE("72: ldr r2, [sp, #DEPTH_DY]")
-        LINE("muls r2, r0, r2")
-        LINE("adds r1, r1, r2")
-        LINE("ldr r2, [sp, #LIGHT_DY]")
-        LINE("muls r2, r0, r2")
-        LINE("adds r3, r3, r2")
-        LINE("ldr r2, [sp, #MAP_DY]")
-        LINE("muls r2, r0, r2")
-        LINE("add r10, r2")
-        LINE("b 59b")
 
         LINE("71:")
         FAR_FACE);
