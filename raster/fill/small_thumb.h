@@ -26,7 +26,8 @@ typedef struct small_run {
 } small_run_t;
 
 /* Draws faces from run->place.list on, with light at the corners or flat, until it meets one that it leaves to the caller: behind
- * the limit, no triangle, of another material, whose colour in the ramp is 0, not short, or, Thumb-2, not inside the tile's columns. */
+ * the limit, no triangle, of another material, whose colour in the ramp is 0, not short, or, in Thumb-2,
+ * not inside the tile's columns. */
 void small_thumb_gouraud(small_run_t *run);
 void small_thumb_flat(small_run_t *run);
 
