@@ -16,7 +16,7 @@
 typedef struct face_run {
     uint8_t *record; /* behind the next one */
     uint32_t number; /* records */
-    uint32_t before; /* how many there were when this bucket came */
+    uint32_t before; /* how many there were */
     uint32_t bucket; /* where it begins, 1/16 pixel: of the face before; 1 << 30: there is none */
     int32_t begin;   /* the same, but for the first face */
     uint16_t *list;  /* of that bucket */
@@ -161,7 +161,6 @@ _Static_assert(SHORT_SIDE == 512 && LIGHT_MAX == 253, "numbers in the assembly")
     "cmp r3, r4\n" \
     "beq 13f\n" \
     "strh r4, [r5]\n" \
-    "str r4, %[before]\n" \
     "13: ldr r3, %[begin]\n" \
     "mov r4, r11\n" \
     "b 16f\n" \
@@ -196,9 +195,9 @@ _Static_assert(SHORT_SIDE == 512 && LIGHT_MAX == 253, "numbers in the assembly")
     register const uint8_t *r12 __asm__("r12") = cluster->faces + (size_t)4 * count; \
     register uint32_t lr __asm__("lr") = t->material_base; \
     __asm__ volatile(".syntax unified\n" AREA TOPMOST RECORD(bytes) last REST(bytes) \
-                     : "+r"(r0), [number] "+m"(run.number), [before] "+m"(run.before), [list] "+m"(run.list), \
+                     : "+r"(r0), [number] "+m"(run.number), [list] "+m"(run.list), \
                        [degenerate] "+m"(run.degenerate), [outside] "+m"(run.outside), [large] "+m"(run.large) \
-                     : "r"(r1), "r"(r9), "r"(r10), "r"(r11), "r"(r12), "r"(lr), [record] "m"(run.record), [bucket] "m"(run.bucket), \
+                     : "r"(r1), "r"(r9), "r"(r10), "r"(r11), "r"(r12), "r"(lr), [record] "m"(run.record), [before] "m"(run.before), [bucket] "m"(run.bucket), \
                        [begin] "m"(run.begin), __VA_ARGS__ \
                      : "r2", "r3", "r4", "r5", "r6", "r7", "r8", "cc", "memory"); \
     run_end(t, &run, count)
