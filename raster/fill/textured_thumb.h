@@ -53,9 +53,10 @@ typedef struct textured_run {
 #define TEXTURED_RUN_ROUND (0x10020u - (1u << 22))
 
 /* Draws faces from run->place.list on with light at the corners, until it meets one that it leaves to the caller: behind the limit,
- * no triangle, of another source, or a level that is none of those at hand, not short, not inside the tile's columns, or one that
- * textured_map_make looks at twice. Another source of the same instance and material, without colours and attributes, goes.
- * Thumb-2: and so does any face inside that covers no centre, which counts as drawn. */
+ * no triangle, of another source, or a level that is none of those at hand, not short, or one that textured_map_make looks at
+ * twice. Another source of the same instance and material, without colours and attributes, goes. Thumb-2: not inside the tile's
+ * columns either; but any face inside that covers no centre goes, which counts as drawn. Thumb-1: those that are not inside are
+ * handed on. */
 void textured_thumb(textured_run_t *run);
 
 #endif

@@ -2,9 +2,10 @@
  * the bit.
  *
  * What pays: the list's loop, set-up and rows are one function. Sides come first: of a face that covers no centre gradients are
- * never made. Products are as long as their factors' bounds want: a number of 16 bits or less is one factor wherever that may be,
- * and what a gradient is at the first centre follows from its parts before they are put together. Rows and pixels share one running
- * depth, light, address and map: a row moves them from the last pixel of the one above to its own first.
+ * never made. One that touches columns beside the tile takes rows of its own, which are cut to the tile's columns. Products are as
+ * long as their factors' bounds want: a number of 16 bits or less is one factor wherever that may be, and what a gradient is at the
+ * first centre follows from its parts before they are put together. Rows and pixels share one running depth, light, address and
+ * map: a row moves them from the last pixel of the one above to its own first.
  *
  * Registers of pixels: r0 address of depth, r1 depth, r3 light, r4 from depth to colour, r7 mask with the shift in its lowest byte,
  * where a shift by a register looks (bits of the map that it lets pass there fall out behind the shift); r8, r9, r10, r11 dx of
@@ -51,9 +52,24 @@ static __attribute__((noinline, used)) void textured_thumb_far(textured_far_t *f
     LINE("lsls r2, r2, #1") \
     LINE("ldrh r2, [r5, r2]")
 
+/* Only columns of the tile. ENTRY: of the first row. */
+#define CLAMP(ENTRY) \
+    LINE("b 39f") \
+    LINE(ENTRY "movs r5, #0") \
+    LINE("str r5, [sp, #COLUMN]") \
+    LINE("39: ldr r5, [sp, #CLAMP_LEFT]") \
+    LINE("cmp r2, r5") \
+    LINE("bge 39f") \
+    LINE("movs r2, r5") \
+    LINE("39: ldr r5, [sp, #CLAMP_RIGHT]") \
+    LINE("cmp r4, r5") \
+    LINE("ble 39f") \
+    LINE("movs r4, r5") \
+    LINE("39:")
+
 /* ENTRY: r7 as the step to a row leaves it, r2 and r4 its first column and the one behind its last, r6 from where all is to r2. TEXEL: from an index in r2 to a colour
  * there, by the texels in r5. */
-#define ROWS(ENTRY, TEXEL) \
+#define ROWS(ENTRY, TEXEL, CLAMP) \
     UNIFIED \
     LINE("32: ldr r6, [sp, #COLUMN]") \
     LINE("str r4, [sp, #COLUMN]") \
@@ -126,6 +142,7 @@ static __attribute__((noinline, used)) void textured_thumb_far(textured_far_t *f
     LINE("adds r0, r0, r6") \
     LINE("asrs r2, r2, #20") \
     LINE("asrs r4, r4, #20") \
+    CLAMP \
     LINE("cmp r2, r4") \
     LINE("blt 32b") \
     LINE("b 30b") \
@@ -328,23 +345,12 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("ldr r0, [sp, #LEAST_AREA]")
         LINE("cmp r7, r0")
         LINE("blt 80f")
-        LINE("81: ldr r0, [sp, #PIXELS_UP]")
-        LINE("lsls r7, r0")
-        LINE("mov r6, r9")
-        LINE("ldr r0, [sp, #UPPER]")
-        LINE("lsrs r6, r0")
-        LINE("cmp r6, r7")
-        LINE("bhi 91f")
-        LINE("mov r6, r9")
-        LINE("ldr r0, [sp, #LOWER]")
-        LINE("lsrs r6, r0")
-        LINE("ldr r0, [sp, #ALWAYS]")
-        LINE("orrs r6, r0")
-        LINE("cmp r6, r7")
-        LINE("bls 91f")
+        LINE("81:")
+        OF_LEVEL("91f")
         LINE("14: cmp r3, r5")
-        LINE("blt 15f")
-        LINE("b 40f")
+        LINE("bge 16f")
+        LINE("b 15f")
+        LINE("16: b 40f")
         LINE("88: b 90b")
 
         /* it begins above the tile's end: r1 is to_y */
@@ -354,7 +360,7 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         IS_SMALL
         OTHER_LEVEL
         OTHER_SOURCE
-        REACHES_BELOW);
+        APPEND);
 
     __asm__ volatile(
         UNIFIED
@@ -425,16 +431,14 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("str r4, [sp, #COLUMN]")
         LINE("movs r6, r2")
         LINE("add r7, sp, #COLOUR")
-        LINE("ldr r5, [sp, #PALETTE]")
-        LINE("cmp r5, #0")
-        LINE("beq 62f")
-        LINE("b 73f")
-        LINE("62: b 74f")
+        LINE("ldr r5, [sp, #ROWS_AT]")
+        LINE("mov pc, r5")
 
         LINE("71:")
         FAR_FACE);
 
-    __asm__ volatile(ROWS("73: ", TEXEL_OF_PALETTE) ROWS("74: ", TEXEL_OF_COLOURS));
+    __asm__ volatile(ROWS("73: ", TEXEL_OF_PALETTE, ) ROWS("74: ", TEXEL_OF_COLOURS, )
+                     ROWS("", TEXEL_OF_PALETTE, CLAMP("75: ")) ROWS("", TEXEL_OF_COLOURS, CLAMP("76: ")));
 }
 
 /* clang-format on */

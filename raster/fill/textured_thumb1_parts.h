@@ -20,8 +20,9 @@ _Static_assert(offsetof(textured_far_t, x1) == 12 && sizeof(textured_far_t) == 4
 _Static_assert(offsetof(textured_run_t, palette) == 16 && offsetof(textured_run_t, source) == 32 &&
                    offsetof(textured_run_t, top) == 48 && offsetof(textured_run_t, pixels_up) == 76 &&
                    offsetof(textured_run_t, s_inside) == 112 && offsetof(textured_run_t, place) == 132 &&
-                   offsetof(textured_run_t, levels) == 144 && sizeof(textured_run_level_t) == 40 &&
-                   offsetof(textured_run_level_t, always) == 8 && offsetof(textured_run_level_t, from_corner) == 28,
+                   offsetof(textured_run_t, levels) == 144 && offsetof(textured_run_t, right) == 508 &&
+                   sizeof(textured_run_level_t) == 40 && offsetof(textured_run_level_t, always) == 8 &&
+                   offsetof(textured_run_level_t, from_corner) == 28,
                "offsets in the assembly");
 _Static_assert(sizeof(source_slot_t) == 2 * sizeof(vertex_t) && offsetof(source_slot_t, instance) == 4 &&
                    offsetof(source_slot_t, colours) == 6 && offsetof(source_slot_t, attributes) == 8,
@@ -111,7 +112,15 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE(".equ MODEL_TEXCOORDS, 324") \
     LINE(".equ LEFT, 328")           /* and width */ \
     LINE(".equ KEPT, OFFSETS")           /* three words, where depths are far apart */ \
-    LINE(".equ FRAME, 336") \
+    LINE(".equ RIGHT, 336")           /* where the next face for the column to the right is put, or 0 */ \
+    LINE(".equ BESIDE, 340")          /* not 0: the face touches columns beside the tile's; 2: it goes to the right */ \
+    LINE(".equ CLAMP_LEFT, 344")      /* the tile's columns, from the face's own */ \
+    LINE(".equ CLAMP_RIGHT, 348") \
+    LINE(".equ ROWS_AT, 352")         /* the loop over the face's rows; that of faces inside, and of others */ \
+    LINE(".equ PLAIN_AT, 356") \
+    LINE(".equ CLAMPED_AT, 360") \
+    LINE(".equ FRAME, 364") \
+    LINE(".equ RUN_RIGHT, 508") \
     LINE(".equ RUN_SOURCE, 32") \
     LINE(".equ RUN_LIST, 132") \
     LINE(".equ RUN_LEVELS, 144")
@@ -148,6 +157,20 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("ldmia r0!, {r1, r2}") \
     LINE("str r1, [sp, #END]") \
     LINE("str r2, [sp, #COUNT]") \
+    LINE("ldr r0, [sp, #RUN]") \
+    LINE("movs r1, #RUN_RIGHT / 4") \
+    LINE("lsls r1, r1, #2") \
+    LINE("ldr r1, [r0, r1]") \
+    LINE("str r1, [sp, #RIGHT]") \
+    LINE("adr r1, 4f") \
+    LINE("ldr r2, [sp, #PALETTE]") \
+    LINE("cmp r2, #0") \
+    LINE("bne 3f") \
+    LINE("adds r1, #8") \
+    LINE("3: ldmia r1!, {r2, r3}") \
+    LINE("str r2, [sp, #PLAIN_AT]") \
+    LINE("str r2, [sp, #ROWS_AT]") \
+    LINE("str r3, [sp, #CLAMPED_AT]") \
     LINE("ldr r1, [sp, #RUN_STRIDE]") \
     LINE("str r1, [sp, #STRIDE]") \
     LINE("movs r1, #31")                    /* no level */ \
@@ -155,6 +178,7 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("str r1, [sp, #LOWER]") \
     LINE("movs r1, #0") \
     LINE("str r1, [sp, #ALWAYS]") \
+    LINE("str r1, [sp, #BESIDE]") \
     LINE("movs r0, r7") \
     LINE("movs r1, #8") \
     LINE("ldr r2, [sp, #KNOWN]") \
@@ -169,6 +193,10 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("ldr r3, [sp, #COUNT]") \
     LINE("ldr r4, [sp, #SOURCE]") \
     LINE("str r4, [r0, #RUN_SOURCE]") \
+    LINE("ldr r4, [sp, #RIGHT]") \
+    LINE("movs r5, #RUN_RIGHT / 4") \
+    LINE("lsls r5, r5, #2") \
+    LINE("str r4, [r0, r5]") \
     LINE("adds r0, #RUN_LIST") \
     LINE("stmia r0!, {r1, r2, r3}") \
     LINE("add sp, #FRAME") \
@@ -179,7 +207,25 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("mov r11, r7") \
     LINE("pop {r4-r7, pc}") \
     LINE(".align 2") \
-    LINE("1: .word divide_sides, divide_table, small_thumb1_shifts, 0xfffc0, 0x7fffffff, 0x20000, 0x10420, 0x1f800")
+    LINE("1: .word divide_sides, divide_table, small_thumb1_shifts, 0xfffc0, 0x7fffffff, 0x20000, 0x10420, 0x1f800") \
+    LINE("4: .word 73f, 75f, 74f, 76f")
+
+/* Is the face, r7 its area, r9 texels, of the level? ELSE: where to if not. */
+#define OF_LEVEL(ELSE) \
+    LINE("ldr r0, [sp, #PIXELS_UP]") \
+    LINE("lsls r7, r0") \
+    LINE("mov r6, r9") \
+    LINE("ldr r0, [sp, #UPPER]") \
+    LINE("lsrs r6, r0") \
+    LINE("cmp r6, r7") \
+    LINE("bhi " ELSE) \
+    LINE("mov r6, r9") \
+    LINE("ldr r0, [sp, #LOWER]") \
+    LINE("lsrs r6, r0") \
+    LINE("ldr r0, [sp, #ALWAYS]") \
+    LINE("orrs r6, r0") \
+    LINE("cmp r6, r7") \
+    LINE("bls " ELSE)
 
 /* 80: its area, r7, is too small, or nothing is known of the face: is it short, and inside the tile's columns? */
 #define IS_SMALL \
@@ -213,19 +259,57 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("ldr r7, [r7, r0]") \
     LINE("sxth r7, r7") \
     LINE("ldr r0, [sp, #LEFT]") \
-    LINE("subs r7, r7, r0") \
+    LINE("subs r0, r7, r0") \
+    LINE("mov r11, r7") \
     LINE("ldr r6, [sp, #LEFT + 4]") \
+    LINE("cmp r0, r6") \
+    LINE("bhs 84f") \
+    LINE("adds r7, r0, r2") \
     LINE("cmp r7, r6") \
-    LINE("bhs 83f") \
-    LINE("adds r0, r7, r2") \
-    LINE("cmp r0, r6") \
-    LINE("bhs 83f") \
-    LINE("adds r0, r7, r4") \
-    LINE("cmp r0, r6") \
-    LINE("bhs 83f") \
+    LINE("bhs 84f") \
+    LINE("adds r7, r0, r4") \
+    LINE("cmp r7, r6") \
+    LINE("bhs 84f") \
+    LINE("movs r0, #0") \
+    LINE("str r0, [sp, #BESIDE]") \
+    LINE("ldr r0, [sp, #PLAIN_AT]") \
+    LINE("str r0, [sp, #ROWS_AT]") \
     LINE("ldr r7, [sp, #AREA]") \
     LINE("b 81b") \
-    LINE("83: b 88b")
+    LINE("83: b 88b") \
+    LINE("84: cmp r0, r6")              /* it is not: does it reach beyond the right edge, to another column? */ \
+    LINE("bge 85f") \
+    LINE("adds r7, r0, r2") \
+    LINE("cmp r7, r6") \
+    LINE("bge 85f") \
+    LINE("adds r7, r0, r4") \
+    LINE("cmp r7, r6") \
+    LINE("blt 89f") \
+    LINE("85: movs r0, #2") \
+    LINE("ldr r7, [sp, #RIGHT]") \
+    LINE("cmp r7, #0") \
+    LINE("bne 94f") \
+    LINE("89: movs r0, #1") \
+    LINE("94: str r0, [sp, #BESIDE]") \
+    LINE("mov r7, r11") \
+    LINE("movs r0, #8") \
+    LINE("subs r0, r0, r7") \
+    LINE("asrs r0, r0, #4")             /* -column */ \
+    LINE("ldr r7, [sp, #LEFT]") \
+    LINE("adds r7, #7") \
+    LINE("asrs r7, r7, #4") \
+    LINE("adds r0, r0, r7") \
+    LINE("str r0, [sp, #CLAMP_LEFT]") \
+    LINE("asrs r6, r6, #4") \
+    LINE("subs r6, #1") \
+    LINE("adds r0, r0, r6") \
+    LINE("str r0, [sp, #CLAMP_RIGHT]") \
+    LINE("ldr r0, [sp, #CLAMPED_AT]") \
+    LINE("str r0, [sp, #ROWS_AT]") \
+    LINE("ldr r7, [sp, #AREA]") \
+    OF_LEVEL("92f") \
+    LINE("b 97f") \
+    LINE("92: b 91f")
 
 /* 91: another level, the first that is not too fine: does the run have it? r7 pixels, r9 texels. */
 #define OTHER_LEVEL \
@@ -252,7 +336,13 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("add r7, sp, #CORNERS") \
     LINE("ldmia r7!, {r2-r5}") \
     LINE("ldr r1, [sp, #DOWN]") \
-    LINE("b 14b")
+    LINE("97: ldr r0, [sp, #BESIDE]")   /* nothing leaves it to C now: on to the column to the right */ \
+    LINE("cmp r0, #2") \
+    LINE("bne 98f") \
+    LINE("movs r0, #RIGHT / 4") \
+    LINE("lsls r0, r0, #2") \
+    LINE("bl 29f") \
+    LINE("98: b 14b")
 
 /* 87: another source, r5, with the material in its upper half: is it of the same instance and material, and without colours and
  * attributes? */
@@ -278,20 +368,23 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("str r5, [sp, #SOURCE]") \
     LINE("b 17b")
 
-/* 29: onto the list of those that reach below; r0 and r7 are free. */
-#define REACHES_BELOW \
-    LINE("29: push {r1, r2}") \
-    LINE("ldr r0, [sp, #8 + LIST]") \
-    LINE("ldr r1, [sp, #8 + END]") \
+/* Onto the list whose end is the word r0 bytes above the stack pointer; r0 and r7 are lost. */
+#define APPEND \
+    LINE("29: push {r1, r2, r3}") \
+    LINE("mov r7, sp") \
+    LINE("adds r7, #12") \
+    LINE("adds r7, r7, r0") \
+    LINE("ldr r0, [sp, #12 + LIST]") \
+    LINE("ldr r1, [r7]") \
     LINE("strh r0, [r1]") \
-    LINE("ldr r1, [sp, #8 + RECORD_BYTES]") \
+    LINE("ldr r1, [sp, #12 + RECORD_BYTES]") \
     LINE("muls r0, r1, r0") \
-    LINE("ldr r1, [sp, #8 + ARENA]") \
+    LINE("ldr r1, [sp, #12 + ARENA]") \
     LINE("subs r1, r1, r0") \
     LINE("movs r0, #0") \
     LINE("strh r0, [r1]")               /* its next */ \
-    LINE("str r1, [sp, #8 + END]") \
-    LINE("pop {r1, r2}") \
+    LINE("str r1, [r7]") \
+    LINE("pop {r1, r2, r3}") \
     LINE("bx lr")
 
 /* clang-format on */

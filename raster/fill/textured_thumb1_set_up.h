@@ -64,6 +64,11 @@
     LINE("mov r0, r10") \
     LINE("b 26f") \
     LINE("20: subs r6, r6, r0")             /* it reaches below the tile */ \
+    LINE("ldr r0, [sp, #BESIDE]") \
+    LINE("cmp r0, #2") \
+    LINE("beq 21b") \
+    LINE("movs r0, #END / 4") \
+    LINE("lsls r0, r0, #2") \
     LINE("bl 29b") \
     LINE("b 21b") \
     LINE("24: mov lr, r6")                  /* no rows below the bend */ \
