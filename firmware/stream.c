@@ -49,7 +49,7 @@ int tuile_stream_send(tuile_display_t *display, const tuile_tile_t *tile, bool o
     if (!one_window || tile->y == 0) {
         result = tuile_display_window(display, tile->x, tile->y, tile->width, one_window ? display->height : tile->height);
     }
-    return result ? result : tuile_display_write(display, tile->bytes, (size_t)tile->size_bytes);
+    return result ? result : tuile_display_queue(display, tile->bytes, (size_t)tile->size_bytes);
 }
 
 static int send_tile(tuile_display_t *display, const tuile_tile_t *tile, bool one_window) {
@@ -58,8 +58,19 @@ static int send_tile(tuile_display_t *display, const tuile_tile_t *tile, bool on
     return result ? result : 1;
 }
 
-/* The next tile that is wanted, as tuile_next; *index is its number, and then the one behind it. */
-static int next(tuile_t *renderer, const tuile_stream_hooks_t *hooks, uint32_t *index, tuile_tile_t *tile) {
+/* tuile_next, once the buffer that it draws into is off the wire. Vertices do not wait for it, nor does the end of the frame. */
+static int draw(tuile_t *renderer, tuile_display_t *display, tuile_tile_t *tile) {
+    if (display->in_flight > 1) {
+        int result = tuile_prepare(renderer);
+
+        if (result <= 0 || (result = tuile_display_wait_one(display))) { return result; }
+    }
+    return tuile_next(renderer, tile);
+}
+
+/* The next tile that is wanted, as draw; *index is its number, and then the one behind it. */
+static int next(tuile_t *renderer, tuile_display_t *display, const tuile_stream_hooks_t *hooks, uint32_t *index,
+                tuile_tile_t *tile) {
     const tuile_config_t *config = tuile_config(renderer);
     const uint32_t columns = (config->width + config->tile_width - 1u) / config->tile_width;
     const uint32_t rows = (config->height + config->tile_height - 1u) / config->tile_height;
@@ -72,7 +83,7 @@ static int next(tuile_t *renderer, const tuile_stream_hooks_t *hooks, uint32_t *
                           below < config->tile_height ? below : config->tile_height)) {
             const int result = *index == from ? TUILE_OK : tuile_seek(renderer, *index);
             ++*index;
-            return result ? result : tuile_next(renderer, tile);
+            return result ? result : draw(renderer, display, tile);
         }
     }
     return 0;
@@ -95,13 +106,14 @@ int tuile_stream_tiles(tuile_t *renderer, const tuile_scene_t *scene, tuile_disp
         return result;
     }
     if (hooks->begun) { hooks->begun(hooks->context, scene); }
-    while ((result = hooks->wanted ? next(renderer, hooks, &index, &tile) : tuile_next(renderer, &tile)) > 0) {
-        /* The first tile has a buffer of its own, since a renderer takes them in turn from frame to frame. */
+    while ((result = hooks->wanted ? next(renderer, display, hooks, &index, &tile) : draw(renderer, display, &tile)) > 0) {
+        /* The first tile has a buffer of its own once but one is on the wire, since a renderer takes them in turn from frame to
+         * frame. */
         if (!shown && (result = tuile_display_present(display)) < 0) { break; }
         shown = true;
         result = hooks->send ? hooks->send(hooks->context, display, &tile) : send_tile(display, &tile, one_window);
         /* With one buffer the next tile overwrites this one, so there is nothing to overlap with. With two it overwrites the
-         * one before, and that may still be on the wire if this one was not sent, since nothing waited for it. */
+         * one before, and that may still be on the wire if this one was not sent. */
         if (result == 0 || (result > 0 && config->buffers < 2)) { result = tuile_display_wait(display); }
         if (result < 0) { break; }
     }

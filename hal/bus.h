@@ -3,7 +3,8 @@
  * A port fills in one tuile_bus_t. A function that the board has no use for stays NULL; command, data and delay_ms must
  * be there. Every function gets `context` back, returns 0 or a tuile_hal_error_t, and may block unless stated otherwise.
  * The display above never calls a bus from two threads at once, and never starts a transfer before the one before it has
- * been waited for, so a port needs no queue and no lock.
+ * been waited for, so a port needs no queue and no lock. One whose wire should never rest between two transfers may have a queue of
+ * one, and says so by wait_one.
  *
  * D/C: panels tell commands from what follows by a line that is low for commands. Which of a command's bytes are sent with
  * the line low is the panel's habit, so it comes with each call and a port need not know the panel.
@@ -60,6 +61,11 @@ typedef struct tuile_bus {
      * more, whatever is returned. NULL: data() never returns early. */
     int (*wait)(void *context);
 
+    /* Returns when the port holds the buffer of at most one data(), the last, with the fault of another if it had one; after an
+     * error it holds none. A port that has it takes a data() while one is on the wire, and sends its bytes behind those by itself,
+     * whatever the caller does meanwhile; never more than that one wait. NULL: data() comes only when nothing is on the wire. */
+    int (*wait_one)(void *context);
+
     /* Sends one command and reads size_bytes of answer, without the dummy clock or byte that some panels put before it. */
     int (*read)(void *context, uint8_t command, uint8_t *bytes, size_t size_bytes);
 
@@ -76,6 +82,11 @@ typedef struct tuile_bus {
     uint32_t max_chunk_bytes; /* of one data(); 0 = no limit. At least TUILE_CHUNK_LEAST_BYTES */
     uint32_t pins;            /* the lines that are there: TUILE_PIN_BIT(...) or-ed; others are tied to their active level */
 } tuile_bus_t;
+
+/* 0: no bus of the program has wait_one, and what goes with it is left out. */
+#ifndef TUILE_BUS_QUEUES
+#define TUILE_BUS_QUEUES 1
+#endif
 
 /* Chunks are cut at whole pixels and at even bytes, which for 3-byte pixels is every 6. A panel that is written page by page
  * (SH1106) has one more at the end of each page. */

@@ -2,7 +2,8 @@
  *
  * hal/display.c checks the calls, keeps the first error and the frame's state; a device only does. It is called in this order:
  * describe and start; then window, write ... (all of the window), for each part of a frame, and show. wait comes before anything
- * that follows a write. After an error nothing but start, sleep or describe is called. Results are 0 or a tuile_hal_error_t. */
+ * that follows a write; before another write wait_one does, if the device queues. After an error nothing but start, sleep or
+ * describe is called. Results are 0 or a tuile_hal_error_t. */
 #ifndef TUILE_HAL_DEVICE_H
 #define TUILE_HAL_DEVICE_H
 
@@ -18,6 +19,7 @@ typedef struct tuile_view {
     uint8_t align_x, align_y; /* windows begin and end at multiples of these; >= 1 */
     uint8_t wire;             /* tuile_wire_t of all that is written; never DEFAULT */
     bool dimmable;            /* it has a brightness */
+    bool queues;              /* it takes a write while one is held */
 } tuile_view_t;
 
 typedef struct tuile_device {
@@ -37,6 +39,9 @@ typedef struct tuile_device {
 
     /* Returns when no buffer is held any more, whatever the result. NULL: write never returns early. */
     int (*wait)(void *context);
+
+    /* Returns when at most the last write's buffer is held; none after an error. Only where the view queues. */
+    int (*wait_one)(void *context);
 
     /* The frame is whole. first: nothing has been shown since start; let it be seen. */
     int (*show)(void *context, bool first);

@@ -30,15 +30,20 @@ static int settle(tuile_display_t *display, int result) {
 
 static int quiet(tuile_display_t *display) {
     if (!display->in_flight) { return TUILE_HAL_OK; }
-    display->in_flight = false;
+    display->in_flight = 0;
     return display->device->wait ? settle(display, display->device->wait(display->context)) : TUILE_HAL_OK;
+}
+
+static int awake(const tuile_display_t *display) {
+    if (display->error) { return display->error; }
+    return !display->device || display->asleep ? TUILE_HAL_STATE : TUILE_HAL_OK;
 }
 
 /* Before anything is sent. */
 static int ready(tuile_display_t *display) {
-    if (display->error) { return display->error; }
-    if (!display->device || display->asleep) { return TUILE_HAL_STATE; }
-    return quiet(display);
+    const int result = awake(display);
+
+    return result ? result : quiet(display);
 }
 
 static int start(tuile_display_t *display) {
@@ -65,6 +70,7 @@ int tuile_display_init(tuile_display_t *display, const tuile_display_config_t *c
     display->align_y = view.align_y;
     display->wire = view.wire;
     display->dimmable = view.dimmable;
+    if (TUILE_BUS_QUEUES) { display->queues = view.queues; }
     display->brightness = config->brightness ? config->brightness : 255;
     return start(display);
 }
@@ -89,20 +95,45 @@ int tuile_display_window(tuile_display_t *display, uint32_t x, uint32_t y, uint3
     return TUILE_HAL_OK;
 }
 
-int tuile_display_write(tuile_display_t *display, const uint8_t *bytes, size_t size_bytes) {
-    int result = ready(display);
+int tuile_display_wait_one(tuile_display_t *display) {
+    int result = awake(display);
 
-    if (result) { return result; }
+    if (!TUILE_BUS_QUEUES || result || display->in_flight < 2) { return result; }
+    result = settle(display, display->device->wait_one(display->context));
+    display->in_flight = !result;
+    return result;
+}
+
+/* Nothing is held, or one buffer by a device that queues. */
+static int write(tuile_display_t *display, const uint8_t *bytes, size_t size_bytes) {
+    int result;
+
     if (display->left_bytes == 0 && size_bytes > 0) { return TUILE_HAL_STATE; }
     if (!bytes || size_bytes > display->left_bytes ||
         ((uint32_t)size_bytes * 8u % tuile_wire_bits(display->wire) && size_bytes != display->left_bytes)) {
         return TUILE_HAL_ARGUMENT;
     }
     if (size_bytes == 0) { return TUILE_HAL_OK; }
-    if ((result = settle(display, display->device->write(display->context, bytes, size_bytes)))) { return result; }
-    display->in_flight = true;
+    if ((result = settle(display, display->device->write(display->context, bytes, size_bytes)))) {
+        if (TUILE_BUS_QUEUES) { display->in_flight = 0; }
+        return result;
+    }
+    display->in_flight = TUILE_BUS_QUEUES ? (uint8_t)(display->in_flight + 1u) : 1u;
     display->left_bytes -= (uint32_t)size_bytes;
     return TUILE_HAL_OK;
+}
+
+int tuile_display_write(tuile_display_t *display, const uint8_t *bytes, size_t size_bytes) {
+    const int result = ready(display);
+
+    return result ? result : write(display, bytes, size_bytes);
+}
+
+int tuile_display_queue(tuile_display_t *display, const uint8_t *bytes, size_t size_bytes) {
+    if (!TUILE_BUS_QUEUES || !display->queues) { return tuile_display_write(display, bytes, size_bytes); }
+    const int result = tuile_display_wait_one(display);
+
+    return result ? result : write(display, bytes, size_bytes);
 }
 
 int tuile_display_wait(tuile_display_t *display) { return ready(display); }

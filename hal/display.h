@@ -1,8 +1,9 @@
 /* What the frame loop sees: a display is a panel on a bus, or a device with a controller of its own, and a rotation.
  *
  * OWNERSHIP, the one rule: a buffer given to tuile_display_write belongs to the display until the next tuile_display_write or
- * tuile_display_wait returns. write waits for the write before it; so do all other calls that send something. A call that
- * returns an error leaves no buffer with the display.
+ * tuile_display_wait returns. write waits for the write before it; so do all other calls that send something, but for
+ * tuile_display_queue: it may leave two buffers with the display, its own and that of the write before, which
+ * tuile_display_wait_one then gives back. A call that returns an error leaves no buffer with the display.
  *
  * BYTES. Pixels are in wire order already, in the format that display->wire names, row by row of the window without gaps; a buffer
  * has no alignment but a byte's. A window of pixels smaller than a byte is made of whole bytes (align_x, align_y); but in RGB444,
@@ -59,9 +60,10 @@ typedef struct tuile_display {
     tuile_panel_state_t panel; /* the context of a panel on a bus */
     uint32_t left_bytes;       /* of the window, still to be written */
     uint8_t brightness;
-    bool in_flight; /* the device may hold a buffer */
-    bool lit;       /* something has been shown since the start */
+    uint8_t in_flight; /* buffers that the device may hold: 0 ... 2 */
+    bool lit;          /* something has been shown since the start */
     bool asleep;
+    bool queues; /* the device takes a write while it holds one; last, since the fields above are then near the beginning */
 } tuile_display_t;
 
 /* Resets and initialises the panel, about 250 ms. It stays dark until the first present, since its memory holds noise. An error
@@ -75,11 +77,18 @@ int tuile_display_init(tuile_display_t *display, const tuile_display_config_t *c
 int tuile_display_window(tuile_display_t *display, uint32_t x, uint32_t y, uint32_t width, uint32_t height);
 
 /* Sends pixels in wire order into the window, whole pixels, no more than fit into what is left of it. May return early, see
- * OWNERSHIP. size_bytes beyond the bus's chunk: all chunks but the last are waited for here. */
+ * OWNERSHIP. size_bytes beyond the bus's chunk: all chunks but the last, or the last two in a queue, are waited for here. */
 int tuile_display_write(tuile_display_t *display, const uint8_t *bytes, size_t size_bytes);
+
+/* tuile_display_write that does not wait for the write before it, where bus and panel have a queue (tuile_bus_t.wait_one): these
+ * bytes then follow by themselves. At most one waits for another, so a third waits for the first here. */
+int tuile_display_queue(tuile_display_t *display, const uint8_t *bytes, size_t size_bytes);
 
 /* Returns when nothing is on the wire. */
 int tuile_display_wait(tuile_display_t *display);
+
+/* Returns when at most the buffer given last is with the display. */
+int tuile_display_wait_one(tuile_display_t *display);
 
 /* Ends a frame: waits, and lets it be seen if it is the first. TUILE_HAL_STATE when the last window was not filled. */
 int tuile_display_present(tuile_display_t *display);

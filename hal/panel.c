@@ -127,6 +127,8 @@ static int describe(void *context, const tuile_display_config_t *config, tuile_v
         .align_y = state->view.align_y,
         .wire = format->wire,
         .dimmable = has_pin(state, TUILE_PIN_BACKLIGHT) || panel->brightness_command,
+        .queues = TUILE_BUS_QUEUES && bus->wait_one &&
+                  panel->addressing != TUILE_ADDRESS_PAGE, /* whose pages have commands between them */
     };
     if (exchanges(panel, config->rotation) && format->turned) { view->wire = format->turned; }
     /* A byte of two pixels belongs to one row of one window. */
@@ -277,10 +279,16 @@ static int wait(void *context) {
     return bus->wait ? bus->wait(bus->context) : TUILE_HAL_OK;
 }
 
+static int wait_one(void *context) {
+    const tuile_bus_t *bus = ((const tuile_panel_state_t *)context)->bus;
+
+    return bus->wait_one(bus->context);
+}
+
 static int write(void *context, const uint8_t *bytes, size_t size_bytes) {
     tuile_panel_state_t *state = context;
     const tuile_bus_t *bus = state->bus;
-    const bool pages = state->panel->addressing == TUILE_ADDRESS_PAGE;
+    const bool pages = state->panel->addressing == TUILE_ADDRESS_PAGE, queues = TUILE_BUS_QUEUES && bus->wait_one && !pages;
     size_t chunk_bytes = size_bytes;
     int result = TUILE_HAL_OK;
 
@@ -290,7 +298,12 @@ static int write(void *context, const uint8_t *bytes, size_t size_bytes) {
     for (bool first = true; size_bytes > 0; first = false) {
         size_t now = size_bytes < chunk_bytes ? size_bytes : chunk_bytes;
 
-        if (!first && (result = wait(state))) { return result; }
+        if (queues) {
+            result = bus->wait_one(bus->context);
+        } else if (!first) {
+            result = wait(state);
+        }
+        if (result) { return result; }
         if (pages && state->page_left_bytes == 0 && (result = next_page(state))) { return result; }
         if (pages && now > state->page_left_bytes) { now = (size_t)state->page_left_bytes; }
         if ((result = bus->data(bus->context, bytes, now))) { return result; }
@@ -333,6 +346,7 @@ const TUILE_FLASH tuile_device_t tuile_panel_device = {
     .window = window,
     .write = write,
     .wait = wait,
+    .wait_one = TUILE_BUS_QUEUES ? wait_one : NULL,
     .show = show,
     .brightness = brightness,
     .sleep = sleep,

@@ -521,6 +521,11 @@ typedef struct tuile_tile {
  * while the next is drawn. */
 int tuile_next(tuile_t *renderer, tuile_tile_t *tile);
 
+/* What the next tuile_next does before it writes a tile's bytes: vertices and faces, where its tile is the first of a pass. tuile_next
+ * then leaves it out, so that a caller may make it while all buffers are on the wire. Returns 1, 0 when the frame is complete, or an
+ * error, as tuile_next would. */
+int tuile_prepare(tuile_t *renderer);
+
 /* Draws one tile out of turn, by its number in row-major order; tuile_next then goes on behind it. Any order gives the
  * same picture; going forward row by row is the cheap one. */
 int tuile_seek(tuile_t *renderer, uint32_t tile_index);

@@ -83,45 +83,61 @@ static int bus_command(void *context, const uint8_t *bytes, size_t low_count, si
     return result ? result : refused;
 }
 
-static int land(sim_bus_t *bus) {
-    const uint8_t *bytes = bus->flying;
-    int result = bus->flying_result, refused;
+/* Until `left` are in flight; none after an error. */
+static int land(sim_bus_t *bus, unsigned left) {
+    int result = TUILE_HAL_OK;
 
-    if (!bytes) { return TUILE_HAL_OK; }
-    bus->flying = NULL;
-    if (bus->now_ns < bus->flying_end_ns) {
-        bus->counts.idle_ns += bus->flying_end_ns - bus->now_ns;
-        bus->now_ns = bus->flying_end_ns;
+    while (!result && bus->flying > left) {
+        const sim_bus_flight_t flight = bus->flights[0];
+        int refused;
+
+        bus->flights[0] = bus->flights[1];
+        bus->flying--;
+        if (bus->now_ns < flight.end_ns) {
+            bus->counts.idle_ns += flight.end_ns - bus->now_ns;
+            bus->now_ns = flight.end_ns;
+        }
+        refused = deliver(bus, true, flight.bytes, flight.size_bytes * flight.parts / 2, pixel_clock(bus), flight.start_ns);
+        result = flight.result ? flight.result : refused;
     }
-    refused = deliver(bus, true, bytes, bus->flying_bytes * bus->flying_parts / 2, pixel_clock(bus), bus->flying_start_ns);
-    return result ? result : refused;
+    if (result) { bus->flying = 0; }
+    return result;
 }
 
 static int bus_data(void *context, const uint8_t *bytes, size_t size_bytes) {
     sim_bus_t *bus = context;
-    uint64_t wire_ns = wire_time(size_bytes, pixel_clock(bus));
+    uint64_t wire_ns = wire_time(size_bytes, pixel_clock(bus)), rest_ns;
+    sim_bus_flight_t flight = {.bytes = bytes, .size_bytes = size_bytes};
 
     catch_up(bus);
-    if (bus->flying) { return misuse(bus, "data while data are in flight"); }
+    if (bus->flying > (bus->config.queues ? 1u : 0u)) { return misuse(bus, "data while data are in flight"); }
     if (!bytes || size_bytes == 0) { return misuse(bus, "data of no bytes"); }
     if (bus->config.max_chunk_bytes && size_bytes > bus->config.max_chunk_bytes) {
         return misuse(bus, "a chunk larger than the bus takes");
     }
-    bus->flying_result = fate(bus, &bus->flying_parts);
-    bus->counts.chunks++;
-    bus->counts.data_bytes += size_bytes;
-    bus->counts.wire_ns += wire_ns;
-    bus->counts.gap_ns += bus->config.chunk_gap_ns;
-    bus->flying = bytes;
-    bus->flying_bytes = size_bytes;
-    bus->flying_start_ns = bus->now_ns + bus->config.chunk_gap_ns;
-    bus->flying_end_ns = bus->flying_start_ns + wire_ns;
-    return bus->config.blocking ? land(bus) : TUILE_HAL_OK;
+    flight.start_ns = bus->now_ns + bus->config.chunk_gap_ns;
+    if (bus->flying && flight.start_ns < bus->flights[0].end_ns) { flight.start_ns = bus->flights[0].end_ns; }
+    rest_ns = flight.start_ns - (bus->flying && bus->flights[0].end_ns > bus->now_ns ? bus->flights[0].end_ns : bus->now_ns);
+    flight.end_ns = flight.start_ns + wire_ns;
+    if (!bus->flying || !bus->flights[0].result) { /* else it will never be on the wire */
+        flight.result = fate(bus, &flight.parts);
+        bus->counts.chunks++;
+        bus->counts.data_bytes += size_bytes;
+        bus->counts.wire_ns += wire_ns;
+        bus->counts.gap_ns += rest_ns;
+    }
+    bus->flights[bus->flying++] = flight;
+    return bus->config.blocking ? land(bus, 0) : TUILE_HAL_OK;
 }
 
 static int bus_wait(void *context) {
     catch_up(context);
-    return land(context);
+    return land(context, 0);
+}
+
+static int bus_wait_one(void *context) {
+    catch_up(context);
+    return land(context, 1);
 }
 
 static int bus_read(void *context, uint8_t command, uint8_t *bytes, size_t size_bytes) {
@@ -189,6 +205,7 @@ void sim_bus_open(sim_bus_t *bus, const sim_bus_config_t *config, sim_chip_t *ch
         .command = bus_command,
         .data = bus_data,
         .wait = bus->config.blocking ? NULL : bus_wait,
+        .wait_one = bus->config.queues && !bus->config.blocking ? bus_wait_one : NULL,
         .read = bus_read,
         .delay_ms = bus_delay_ms,
         .pin = bus_pin,

@@ -21,11 +21,13 @@ typedef struct sim_bus_config {
     uint32_t max_chunk_bytes;  /* 0 = no limit */
     uint32_t refresh_hz;       /* of the panel; 0 = the tearing-effect line is not connected */
     bool blocking;             /* data return when they are out, and there is no wait */
+    bool queues;               /* data are taken while others are on the wire, and follow them without a gap: wait_one */
     bool no_reset_pin;
     bool no_backlight_pin; /* the backlight is always on */
 
     /* A fault, once: transfer number fail_transfer (1 = the first; commands and chunks both count) ends in fail_code, for a
-     * chunk in flight at the wait. fail_parts of 2 parts of it reach the chip nevertheless: 0, 1 or 2. */
+     * chunk in flight at the wait; one that waits behind it does not go out. fail_parts of 2 parts of it reach the chip
+     * nevertheless: 0, 1 or 2. */
     uint64_t fail_transfer;
     int fail_code; /* 0 = TUILE_HAL_IO; TUILE_HAL_GONE lasts: all later transfers fail alike */
     uint8_t fail_parts;
@@ -35,12 +37,21 @@ typedef struct sim_bus_config {
 typedef struct sim_bus_counts {
     uint64_t commands, chunks; /* transactions */
     uint64_t command_bytes, data_bytes;
-    uint64_t wire_ns; /* bits / clock, rounded up per transaction */
-    uint64_t gap_ns;
+    uint64_t wire_ns;  /* bits / clock, rounded up per transaction */
+    uint64_t gap_ns;   /* as far as the wire rests for them */
     uint64_t delay_ns; /* pauses asked for */
     uint64_t work_ns;  /* reported by sim_bus_work, or by a listener */
     uint64_t idle_ns;  /* spent waiting for data on the wire, after any work */
 } sim_bus_counts_t;
+
+/* Data on the wire, or waiting for it. */
+typedef struct sim_bus_flight {
+    const uint8_t *bytes;
+    size_t size_bytes;
+    uint64_t start_ns, end_ns;
+    int result;
+    uint8_t parts;
+} sim_bus_flight_t;
 
 /* What the caller has computed for since the last call, in ns. */
 typedef uint64_t (*sim_bus_work_fn)(void *context);
@@ -57,11 +68,8 @@ typedef struct sim_bus {
     sim_bus_work_fn listener; /* NULL: none */
     void *listener_context;
     uint32_t asked_command_hz, asked_pixel_hz;
-    const uint8_t *flying; /* the buffer in flight */
-    size_t flying_bytes;
-    uint64_t flying_start_ns, flying_end_ns;
-    int flying_result;
-    uint8_t flying_parts;
+    sim_bus_flight_t flights[2]; /* of buffers that are not the caller's, in their order */
+    unsigned flying;             /* how many */
     uint8_t backlight;
     bool gone;
 } sim_bus_t;

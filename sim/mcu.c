@@ -14,7 +14,8 @@
 const sim_mcu_t sim_mcus[] = {
     /* CPSDVSR, even, 2 to 254, times 1 + SCR, 1 to 256: every even divisor up to 512 is among their products. */
     {"rp2040", 125000000, 2, 512, 2, "RP2040 data sheet 4.4.3.4, clk_peri 125 MHz", .core_hz = 125000000, .core = "cortex-m0plus",
-     .cycles_milli = 1400, .cycles_from = "measured in rp2040js, without waits for flash", .transfer_cycles = TRANSFER_CYCLES},
+     .cycles_milli = 1400, .cycles_from = "measured in rp2040js, without waits for flash", .transfer_cycles = TRANSFER_CYCLES,
+     .queues = true},
     {"stm32f4", 100000000, 2, 256, 0, "RM0383 20.5.1, BR of SPI_CR1, APB2 100 MHz", .core_hz = 100000000, .core = "cortex-m4",
      .cycles_milli = 1480, .cycles_from = "the cycles of the Cortex-M4 TRM over what is counted, without waits for flash",
      .transfer_cycles = TRANSFER_CYCLES},

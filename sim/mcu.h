@@ -20,6 +20,7 @@ typedef struct sim_mcu {
     const char *cycles_from;  /* where that is from, in a few words */
     uint32_t transfer_cycles; /* of the driver, for each command and each chunk of pixels */
     bool polled;              /* the core feeds the wire itself: nothing overlaps */
+    bool queues;              /* its driver takes pixels while others are on the wire (tuile_bus_t.wait_one) */
 } sim_mcu_t;
 
 extern const sim_mcu_t sim_mcus[];

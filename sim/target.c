@@ -18,6 +18,7 @@ static int open_sim(target_t *target, tuile_display_config_t *display, sim_error
         bus.command_clock_hz = sim_mcu_clock(config->mcu, display->command_clock_hz);
         bus.command_gap_ns = bus.chunk_gap_ns = sim_mcu_transfer_ns(config->mcu);
         bus.blocking = config->mcu->polled;
+        bus.queues = config->mcu->queues;
     }
     sim_bus_open(&target->bus, &bus, target->chip);
     display->bus = &target->bus.bus;

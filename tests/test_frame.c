@@ -126,6 +126,60 @@ static void a_tile_on_the_wire_is_not_touched_while_the_next_is_drawn(void **sta
     stage_close(&stage);
 }
 
+/* What is prepared is left out of the next tile, and neither buffer is touched by it: with more passes than one, too. */
+static void what_is_prepared_touches_no_tile_and_is_not_done_again(void **state) {
+    static const size_t more[] = {0, 4000, 200000};
+    stage_t stage;
+    (void)state;
+    stage_open_torus(&stage, 240, 320);
+    for (unsigned m = 0; m < 3; m++) {
+        tuile_config_t config = stage_panel_config(&stage);
+        config.tile_height = 16;
+        block_t block;
+        tuile_t *renderer;
+        tuile_tile_t tile, sent[2] = {0}; /* by turns, as its buffers */
+        tuile_stats_t plain, prepared;
+        uint8_t copies[2][240 * 16 * 2], *picture = frame_blank(&config), *again = frame_blank(&config);
+        unsigned turn = 0;
+        block_open(&block, frame_least_bytes(&config) + more[m]);
+        assert_int_equal(tuile_init(&renderer, &config, block.bytes, block.size_bytes, NULL), 0);
+        assert_int_equal(tuile_prepare(NULL), TUILE_ERROR_ARGUMENT);
+        assert_int_equal(tuile_prepare(renderer), TUILE_ERROR_SEQUENCE);
+        for (unsigned frame = 0; frame < 2; frame++) { /* the second knows the first one's passes */
+            assert_int_equal(tuile_begin(renderer, &stage.view.scene), 0);
+            for (; tuile_next(renderer, &tile) == 1; turn ^= 1) {
+                frame_paste(picture, &config, &tile);
+                sent[turn] = tile;
+            }
+            assert_int_equal(tuile_end(renderer, &plain), 0);
+        }
+        assert_int_equal(tuile_begin(renderer, &stage.view.scene), 0);
+        for (;; turn ^= 1) {
+            for (unsigned i = 0; i < 2; i++) {
+                memcpy(copies[i], sent[i].bytes, sent[i].size_bytes);
+            }
+            const int result = tuile_prepare(renderer);
+            assert_int_equal(tuile_prepare(renderer), result);
+            for (unsigned i = 0; i < 2; i++) {
+                assert_memory_equal(sent[i].bytes, copies[i], sent[i].size_bytes);
+            }
+            assert_int_equal(tuile_next(renderer, &tile), result);
+            if (result == 0) { break; }
+            frame_paste(again, &config, &tile);
+            sent[turn] = tile;
+        }
+        assert_int_equal(tuile_end(renderer, &prepared), 0);
+        assert_memory_equal(again, picture, frame_bytes(&config));
+        assert_int_equal(prepared.passes, plain.passes);
+        assert_int_equal(prepared.vertices, plain.vertices);
+        assert_int_equal(prepared.faces_binned, plain.faces_binned);
+        free(picture);
+        free(again);
+        block_close(&block);
+    }
+    stage_close(&stage);
+}
+
 static void one_buffer_takes_less_memory_for_the_same_picture(void **state) {
     stage_t stage;
     (void)state;
@@ -526,6 +580,7 @@ int main(void) {
         cmocka_unit_test(tiles_sought_backwards_or_at_random_give_the_same_picture),
         cmocka_unit_test(two_renderers_in_turns_draw_a_band_each),
         cmocka_unit_test(a_tile_on_the_wire_is_not_touched_while_the_next_is_drawn),
+        cmocka_unit_test(what_is_prepared_touches_no_tile_and_is_not_done_again),
         cmocka_unit_test(one_buffer_takes_less_memory_for_the_same_picture),
         cmocka_unit_test(a_frame_that_was_broken_off_leaves_no_trace_in_the_next),
         cmocka_unit_test(the_other_order_of_bytes_is_the_same_picture),

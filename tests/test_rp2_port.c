@@ -12,6 +12,8 @@ static volatile uint32_t *register_at(uintptr_t address);
 void clocks_reset(uint32_t subsystems) { (void)subsystems; }
 void clocks_delay_ms(uint32_t delay_ms) { (void)delay_ms; }
 void clocks_enable_irq(uint32_t irq) { (void)irq; }
+void clocks_hold_irqs(void) {}
+void clocks_release_irqs(void) {}
 void clocks_sleep_until(const volatile uint32_t *flag) { (void)flag; }
 void clocks_wake(volatile uint32_t *flag) { *flag = 1; }
 
@@ -93,11 +95,54 @@ static void test_commands_and_pixels_have_clocks_of_their_own(void **state) {
     assert_int_equal(bus.wait(NULL), 0);
 }
 
+static uint32_t low(const void *bytes) { return (uint32_t)(uintptr_t)bytes; }
+
+/* The channel has what it has until its interrupt; then it has what waits, if anything does. */
+static void test_the_interrupt_begins_what_waits(void **state) {
+    const tuile_bus_t bus = opened();
+    static const uint8_t a[10], b[20], c[30];
+    (void)state;
+    assert_int_equal(bus.clocks(NULL, 10000000, 40000000), 0);
+    for (unsigned round = 0; round < 2; round++) {
+        assert_int_equal(bus.data(NULL, a, sizeof a), 0);
+        assert_int_equal(DMA_READ_ADDR(0), low(a));
+        assert_int_equal(DMA_COUNT(0), 10);
+        assert_true(one_left && !sent);
+        assert_int_equal(bus.data(NULL, b, sizeof b), 0);
+        assert_int_equal(DMA_READ_ADDR(0), low(a));
+        assert_true(!one_left && !sent); /* wait_one sleeps, and so does wait */
+        DMA_CTRL_TRIGGER(0) = 0;
+        rp2_dma_0();
+        assert_int_equal(DMA_READ_ADDR(0), low(b));
+        assert_int_equal(DMA_COUNT(0), 20);
+        assert_true(DMA_CTRL_TRIGGER(0) & DMA_CTRL_ENABLE);
+        assert_true(one_left && !sent);
+        assert_int_equal(bus.wait_one(NULL), 0);
+        assert_int_equal(bus.data(NULL, c, sizeof c), 0);
+        rp2_dma_0();
+        assert_int_equal(DMA_READ_ADDR(0), low(c));
+        assert_int_equal(DMA_COUNT(0), 30);
+        rp2_dma_0();
+        assert_int_equal(DMA_READ_ADDR(0), low(c));
+        assert_true(one_left && sent);
+        /* All has gone out, and nobody has waited: the next begins at once. */
+        assert_int_equal(bus.data(NULL, a, sizeof a), 0);
+        assert_int_equal(DMA_READ_ADDR(0), low(a));
+        assert_true(one_left && !sent);
+        rp2_dma_0();
+        assert_true(sent);
+        SIO_OUT_SET = 0;
+        assert_int_equal(bus.wait(NULL), 0);
+        assert_int_equal(SIO_OUT_SET, 1u << PORT_PIN_SELECT);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_clock_is_the_fastest_that_is_not_above),
         cmocka_unit_test(test_a_clock_below_the_slowest_is_refused),
         cmocka_unit_test(test_commands_and_pixels_have_clocks_of_their_own),
+        cmocka_unit_test(test_the_interrupt_begins_what_waits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,8 +18,10 @@ struct tuile {
     int begin_error, next_error, end_error;
     unsigned fail_at; /* tile */
     sim_bus_t *bus;
-    uint64_t work_ns; /* of a tile */
-    bool left;        /* the last tile may be on the wire when a frame ends */
+    uint64_t work_ns;     /* of a tile */
+    uint64_t vertices_ns; /* before the first */
+    bool prepared;
+    bool left; /* the last tile may be on the wire when a frame ends */
     uint8_t buffers[2][240 * 32 * 2];
 };
 
@@ -28,7 +30,15 @@ static int fake_begin(tuile_t *renderer, const tuile_scene_t *scene) {
     if (renderer->begin_error) { return renderer->begin_error; }
     renderer->begun++;
     renderer->next = 0;
+    renderer->prepared = false;
     return 0;
+}
+
+static int fake_prepare(tuile_t *renderer) {
+    if (renderer->next == 0 && !renderer->prepared) { sim_bus_work(renderer->bus, renderer->vertices_ns); }
+    renderer->prepared = true;
+    if (renderer->next_error && renderer->next == renderer->fail_at && renderer->fail_at % 2 == 0) { return renderer->next_error; }
+    return renderer->next < 10;
 }
 
 static int fake_next(tuile_t *renderer, tuile_tile_t *tile) {
@@ -38,6 +48,7 @@ static int fake_next(tuile_t *renderer, tuile_tile_t *tile) {
     *tile = (tuile_tile_t){0};
     if (renderer->next_error && renderer->next == renderer->fail_at) { return renderer->next_error; }
     if (renderer->next == 10) { return 0; }
+    (void)fake_prepare(renderer);
     sim_bus_work(renderer->bus, renderer->work_ns);
     memset(to, 0, sizeof renderer->buffers[0]);
     board_encode(to, TUILE_WIRE_RGB565, 240, 0, y, 240, 32);
@@ -52,7 +63,7 @@ static int fake_seek(tuile_t *renderer, uint32_t tile_index) {
 }
 
 static int fake_end(tuile_t *renderer, tuile_stats_t *stats) {
-    if (!renderer->left) { assert_null(renderer->bus->flying); } /* the block is the renderer's again */
+    if (!renderer->left) { assert_int_equal(renderer->bus->flying, 0); } /* the block is the renderer's again */
     renderer->ended++;
     if (stats) { stats->tiles = renderer->next; }
     return renderer->end_error;
@@ -65,6 +76,7 @@ static const char *fake_error_text(int error) { return error ? "renderer" : "no 
 /* The loop itself, over that renderer, whatever else is linked. */
 #define tuile_begin fake_begin
 #define tuile_next fake_next
+#define tuile_prepare fake_prepare
 #define tuile_seek fake_seek
 #define tuile_end fake_end
 #define tuile_config fake_config
@@ -92,14 +104,25 @@ static void open_stream(board_t *board, tuile_t *renderer, const sim_bus_config_
     renderer->bus = &board->bus;
 }
 
+/* Tiles as the renderer above makes them, all of them: one window does. */
+static void fill_display(tuile_t *renderer) {
+    renderer->config.tile_width = 240;
+    renderer->config.tile_height = 32;
+    renderer->config.tile_step = 1;
+    renderer->config.row_end = 320;
+}
+
+/* By one buffer or two; a window for each tile, one for all, and one into which the bus queues. */
 static void test_stream_frame(void **state) {
     static tuile_t renderer;
 
     (void)state;
-    for (uint8_t buffers = 1; buffers <= 2; buffers++) {
+    for (unsigned variant = 0; variant < 6; variant++) {
+        const uint8_t buffers = (uint8_t)(1 + variant % 2);
         board_t board;
         tuile_stats_t stats;
-        open_stream(&board, &renderer, NULL, buffers);
+        open_stream(&board, &renderer, &(sim_bus_config_t){.queues = variant / 2 == 2}, buffers);
+        if (variant / 2) { fill_display(&renderer); }
         assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
         for (unsigned frame = 1; frame <= 2; frame++) {
             assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, frame == 1 ? &stats : NULL), 0);
@@ -152,10 +175,7 @@ static void test_stream_begins_anew_after_a_frame_that_broke_off(void **state) {
 
     (void)state;
     open_stream(&board, &renderer, NULL, 2);
-    renderer.config.tile_width = 240;
-    renderer.config.tile_height = 32;
-    renderer.config.tile_step = 1;
-    renderer.config.row_end = 320;
+    fill_display(&renderer);
     assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
     renderer.next_error = TUILE_ERROR_RANGE;
     for (renderer.fail_at = 0; renderer.fail_at <= 10; renderer.fail_at++) {
@@ -265,13 +285,17 @@ static void test_stream_display_faults(void **state) {
     static tuile_t renderer;
 
     (void)state;
-    /* 21 transfers of the start, 10 tiles of 4 */
-    for (uint64_t transfer = 22; transfer <= 61; transfer++) {
+    /* 21 transfers of the start, 10 tiles of 4; or a window of 3 and 10 tiles, which are queued */
+    for (uint64_t transfer = 22; transfer <= 61 + 13; transfer++) {
+        const bool queues = transfer > 61;
         board_t board;
         tuile_stats_t stats;
-        open_stream(&board, &renderer, &(sim_bus_config_t){.fail_transfer = transfer, .fail_parts = 1}, 2);
+        open_stream(&board, &renderer,
+                    &(sim_bus_config_t){.fail_transfer = queues ? transfer - 40 : transfer, .fail_parts = 1, .queues = queues}, 2);
+        if (queues) { fill_display(&renderer); }
         assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
         assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, &stats), TUILE_HAL_IO);
+        assert_int_equal(board.bus.transfers, queues ? transfer - 40 : transfer); /* nothing goes out after it */
         assert_int_equal(renderer.begun, 1);
         assert_int_equal(renderer.ended, 1);
         assert_int_equal(stream_frame_under_test(&renderer, &nothing, &board.display, &stats), TUILE_HAL_IO);
@@ -318,16 +342,16 @@ static void test_frames_that_flow_overlap_at_their_ends(void **state) {
         assert_int_equal(tuile_display_init(&board.display, &on), 0);
         assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), 0);
         assert_true(board.display.lit); /* the first frame is shown at once */
-        assert_null(board.bus.flying);
+        assert_int_equal(board.bus.flying, 0);
         renderer.left = buffers == 2;
         renderer.work_ns = 5000000;
         before_ns = board.bus.now_ns;
         for (unsigned frame = 0; frame < 3; frame++) {
             assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), 0);
-            assert_int_equal(board.bus.flying != NULL, buffers == 2);
+            assert_int_equal(board.bus.flying != 0, buffers == 2);
         }
         assert_int_equal(stream_settle_under_test(&board.display), 0);
-        assert_null(board.bus.flying);
+        assert_int_equal(board.bus.flying, 0);
         assert_int_equal(board.bus.now_ns - before_ns, 30 * tile_ns + (buffers == 2 ? 1 : 30) * pixels_ns);
         renderer.left = false;
         before_ns = board.bus.now_ns;
@@ -337,6 +361,49 @@ static void test_frames_that_flow_overlap_at_their_ends(void **state) {
         assert_int_equal(board.bus.now_ns - before_ns, 30 * tile_ns + (buffers == 2 ? 3 : 30) * pixels_ns);
         assert_string_equal(board.bus.error.text, "");
         board_check_picture(&board, 0, TUILE_WIRE_RGB565);
+        board_close(&board);
+    }
+}
+
+/* Two buffers, one window of 8.8 us; a tile is drawn in 1 ms, its pixels take w = 1.96608 ms. Let the wire of a frame begin at t.
+ * Each tile from the third on is drawn when the one two before it is out: the last from t + 8 w. Queued, it needs no more of the
+ * processor, which has the next frame's vertices ready at t + 8 w + 1 ms + v and the first tile 1 ms later, if its buffer is free
+ * by t + 9 w. Pixels begin behind that, and not before t + 10 w. Without a queue the last tile is handed over at t + 9 w, and
+ * vertices begin then. */
+static void test_vertices_do_not_wait_for_the_wire_where_it_queues(void **state) {
+    static tuile_t renderer;
+    static const uint64_t w = 1966080, window = 8800, ms = 1000000;
+    static const struct {
+        bool queues;
+        uint64_t vertices_ns, period_ns;
+    } cases[] = {
+        {true, 4 * ms, 8 * w + ms + 4 * ms + ms + window}, /* the longer of both: 14 ms of drawing but for 6 pauses of the tiles */
+        {false, 4 * ms, 9 * w + 4 * ms + ms + window},
+        {true, ms / 2, 10 * w + window}, /* the wire never rests */
+        {false, ms / 2, 10 * w + window},
+        {true, 0, 10 * w + window},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < CHECK_COUNT(cases); i++) {
+        tuile_display_config_t config = {.panel = &tuile_ili9341, .pixel_clock_hz = 62500000};
+        board_t board;
+        uint64_t before_ns = 0;
+        open_stream(&board, &renderer, &(sim_bus_config_t){.queues = cases[i].queues}, 2);
+        fill_display(&renderer);
+        config.bus = &board.bus.bus;
+        assert_int_equal(tuile_display_init(&board.display, &config), 0);
+        renderer.vertices_ns = cases[i].vertices_ns;
+        renderer.work_ns = ms;
+        renderer.left = true;
+        for (unsigned frame = 0; frame < 6; frame++) {
+            if (frame >= 3) { assert_int_equal(board.bus.now_ns - before_ns, cases[i].period_ns); }
+            before_ns = board.bus.now_ns;
+            assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), 0);
+        }
+        assert_int_equal(stream_settle_under_test(&board.display), 0);
+        board_check_picture(&board, 0, TUILE_WIRE_RGB565);
+        assert_string_equal(board.bus.error.text, "");
         board_close(&board);
     }
 }
@@ -360,6 +427,32 @@ static void test_each_frame_that_flows_waits_for_the_tearing_line(void **state) 
     }
     assert_int_equal(stream_settle_under_test(&board.display), 0);
     board_close(&board);
+}
+
+/* 21 transfers of the start, 13 of a frame in one window: the last two tiles of the second are the 46th and the 47th. */
+static void test_a_fault_of_two_tiles_left_behind_is_told_by_the_next_call(void **state) {
+    static tuile_t renderer;
+
+    (void)state;
+    for (unsigned variant = 0; variant < 4; variant++) {
+        const uint64_t transfer = 46 + variant % 2;
+        board_t board;
+        open_stream(&board, &renderer, &(sim_bus_config_t){.fail_transfer = transfer, .queues = true}, 2);
+        fill_display(&renderer);
+        assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
+        assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), 0);
+        assert_int_equal(board.bus.transfers, 34);
+        renderer.left = true;
+        assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), 0);
+        assert_int_equal(board.bus.flying, 2);
+        assert_int_equal(variant / 2 ? stream_settle_under_test(&board.display)
+                                     : stream_flow_under_test(&renderer, &nothing, &board.display, NULL),
+                         TUILE_HAL_IO);
+        assert_int_equal(board.display.error, TUILE_HAL_IO);
+        assert_int_equal(board.bus.flying, 0);
+        assert_int_equal(board.bus.transfers, transfer);
+        board_close(&board);
+    }
 }
 
 /* 21 transfers of the start and 40 of a frame; the last of the next frame is the 101st, which a frame that
@@ -390,25 +483,25 @@ static void test_a_fault_of_the_tile_left_behind_is_told_by_the_next_call(void *
     }
 }
 
-static void test_a_renderer_s_error_leaves_nothing_on_the_wire(void **state) {
+static void check_renderer_s_error(bool queues) {
     static tuile_t renderer;
     board_t board;
 
-    (void)state;
-    open_stream(&board, &renderer, NULL, 2);
+    open_stream(&board, &renderer, &(sim_bus_config_t){.queues = queues}, 2);
+    if (queues) { fill_display(&renderer); }
     renderer.left = true;
     assert_int_equal(board_start(&board, 0, TUILE_WIRE_RGB565), 0);
     for (unsigned kind = 0; kind < 4; kind++) {
         for (unsigned i = 0; i < 2; i++) {
             assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), 0);
         }
-        assert_non_null(board.bus.flying);
+        assert_int_equal(board.bus.flying, queues ? 2 : 1);
         renderer.begin_error = kind == 0 ? TUILE_ERROR_CAMERA : 0;
         renderer.next_error = kind == 1 || kind == 2 ? TUILE_ERROR_CAMERA : 0;
         renderer.fail_at = kind == 1 ? 0 : 10;
         renderer.end_error = kind == 3 ? TUILE_ERROR_CAMERA : 0;
         assert_int_equal(stream_flow_under_test(&renderer, &nothing, &board.display, NULL), TUILE_ERROR_CAMERA);
-        assert_null(board.bus.flying);
+        assert_int_equal(board.bus.flying, 0);
         assert_int_equal(board.display.error, 0);
         renderer.begin_error = renderer.next_error = renderer.end_error = 0;
     }
@@ -416,6 +509,12 @@ static void test_a_renderer_s_error_leaves_nothing_on_the_wire(void **state) {
     board_check_clean(&board);
     board_check_picture(&board, 0, TUILE_WIRE_RGB565);
     board_close(&board);
+}
+
+static void test_a_renderer_s_error_leaves_nothing_on_the_wire(void **state) {
+    (void)state;
+    check_renderer_s_error(false);
+    check_renderer_s_error(true);
 }
 
 static void test_error_texts(void **state) {
@@ -444,6 +543,8 @@ int main(void) {
         cmocka_unit_test(test_stream_display_faults),
         cmocka_unit_test(test_stream_both_fail),
         cmocka_unit_test(test_frames_that_flow_overlap_at_their_ends),
+        cmocka_unit_test(test_vertices_do_not_wait_for_the_wire_where_it_queues),
+        cmocka_unit_test(test_a_fault_of_two_tiles_left_behind_is_told_by_the_next_call),
         cmocka_unit_test(test_each_frame_that_flows_waits_for_the_tearing_line),
         cmocka_unit_test(test_a_fault_of_the_tile_left_behind_is_told_by_the_next_call),
         cmocka_unit_test(test_a_renderer_s_error_leaves_nothing_on_the_wire),

@@ -48,6 +48,10 @@ void clocks_open(void) {
 
 void clocks_enable_irq(uint32_t irq) { NVIC_ISER = 1u << irq; }
 
+void clocks_hold_irqs(void) { __asm__ volatile("cpsid i" ::: "memory"); }
+
+void clocks_release_irqs(void) { __asm__ volatile("cpsie i" ::: "memory"); }
+
 #if TUILE_CORES > 1
 /* Interrupts go to the first core. Either may wait for one: an event is kept until it is waited for, so none is missed. */
 void clocks_sleep_until(const volatile uint32_t *flag) {

@@ -21,6 +21,10 @@ void clocks_delay_ms(uint32_t delay_ms);
 /* Lets an interrupt in. */
 void clocks_enable_irq(uint32_t irq);
 
+/* Around what an interrupt of this core must not come into. */
+void clocks_hold_irqs(void);
+void clocks_release_irqs(void);
+
 /* Sleeps until *flag is set by clocks_wake in an interrupt. With TUILE_CORES=2 either core may, and interrupts are the first one's.
  */
 void clocks_sleep_until(const volatile uint32_t *flag);

@@ -25,15 +25,34 @@ typedef struct rate {
 } rate_t;
 
 static rate_t command_rate, pixel_rate;
-static const rate_t *set; /* of the two */
-static volatile uint32_t sent;
+static const rate_t *set;                /* of the two */
+static volatile uint32_t sent, one_left; /* nothing is left to send; of two, only one is */
 static bool sending;
+static struct {
+    const uint8_t *bytes; /* NULL: nothing waits */
+    size_t size_bytes;
+} volatile queued;
 
 void rp2_dma_0(void);
 
+static void begin(const uint8_t *bytes, size_t size_bytes) {
+    DMA_READ_ADDR(CHANNEL) = (uint32_t)(uintptr_t)bytes;
+    DMA_WRITE_ADDR(CHANNEL) = (uint32_t)(uintptr_t)&SPI0_DR;
+    DMA_COUNT(CHANNEL) = (uint32_t)size_bytes;
+    DMA_CTRL_TRIGGER(CHANNEL) =
+        DMA_CTRL_ENABLE | DMA_CTRL_READ_INCREMENTS | DMA_CTRL_CHAIN_TO(CHANNEL) | DMA_CTRL_REQUEST(DMA_REQUEST_SPI0_TX);
+}
+
+/* The eight bytes that the FIFO still holds last longer than this takes to begin the next, so the wire does not rest. */
 void rp2_dma_0(void) {
     DMA_INTS0 = 1u << CHANNEL;
-    clocks_wake(&sent);
+    if (queued.bytes) {
+        begin(queued.bytes, queued.size_bytes);
+        queued.bytes = NULL;
+        clocks_wake(&one_left);
+    } else {
+        clocks_wake(&sent);
+    }
 }
 
 /* The fastest clock that is not above the one asked for. False when even the slowest is. */
@@ -112,15 +131,30 @@ static int command(void *context, const uint8_t *bytes, size_t low_count, size_t
 
 static int data(void *context, const uint8_t *bytes, size_t size_bytes) {
     (void)context;
-    use(&pixel_rate);
-    select_panel(true);
+    if (sending) {
+        clocks_hold_irqs();
+        if (!sent) {
+            one_left = 0;
+            queued.size_bytes = size_bytes;
+            queued.bytes = bytes;
+            clocks_release_irqs();
+            return TUILE_HAL_OK;
+        }
+        clocks_release_irqs();
+    } else {
+        use(&pixel_rate);
+        select_panel(true);
+    }
     sent = 0;
+    one_left = 1;
     sending = true;
-    DMA_READ_ADDR(CHANNEL) = (uint32_t)(uintptr_t)bytes;
-    DMA_WRITE_ADDR(CHANNEL) = (uint32_t)(uintptr_t)&SPI0_DR;
-    DMA_COUNT(CHANNEL) = (uint32_t)size_bytes;
-    DMA_CTRL_TRIGGER(CHANNEL) =
-        DMA_CTRL_ENABLE | DMA_CTRL_READ_INCREMENTS | DMA_CTRL_CHAIN_TO(CHANNEL) | DMA_CTRL_REQUEST(DMA_REQUEST_SPI0_TX);
+    begin(bytes, size_bytes);
+    return TUILE_HAL_OK;
+}
+
+static int leave_one(void *context) {
+    (void)context;
+    if (sending) { clocks_sleep_until(&one_left); }
     return TUILE_HAL_OK;
 }
 
@@ -190,6 +224,7 @@ void port_open(tuile_bus_t *bus) {
         .command = command,
         .data = data,
         .wait = wait,
+        .wait_one = leave_one,
         .delay_ms = delay_ms,
         .pin = pin,
         .pins = TUILE_PIN_BIT(TUILE_PIN_RESET) | TUILE_PIN_BIT(TUILE_PIN_BACKLIGHT),

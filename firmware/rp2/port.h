@@ -1,4 +1,6 @@
-/* SPI0 of RP2040 and RP2350 as a bus: commands are polled, data go by DMA while the core goes on, and it sleeps in wait(). */
+/* SPI0 of RP2040 and RP2350 as a bus: commands are polled, data go by DMA while the core goes on, and it sleeps in wait(). Data
+ * that come while others are on the wire are begun by the interrupt at the end of those, which is the first core's: so the second
+ * core may only send what it has waited for the wire with (a window before each tile, as in firmware/cores.h). */
 #ifndef TUILE_FIRMWARE_RP2_PORT_H
 #define TUILE_FIRMWARE_RP2_PORT_H
 

@@ -6,7 +6,7 @@ UNO_SRC := $(wildcard firmware/uno/*.c) firmware/board/memory.c hal/display.c ha
 # gnu11: flash is an address space of its own (raster/flash.h). -fno-ivopts: gcc 5.4 dies of pointers into it in loops. The other -fno-
 # together save 1 366 bytes of 29 396, and -fno-tree-switch-conversion tables in RAM.
 UNO_FLAGS := -mmcu=atmega328p -std=gnu11 -Os -ffreestanding -fno-ivopts -fno-tree-loop-optimize -fno-move-loop-invariants \
-             -fno-inline-small-functions -fno-tree-switch-conversion -mstrict-X -mcall-prologues -ffunction-sections -fdata-sections -fstack-usage
+             -fno-inline-small-functions -fno-tree-switch-conversion -mstrict-X -mcall-prologues -DTUILE_BUS_QUEUES=0 -ffunction-sections -fdata-sections -fstack-usage
 # frames is what tests run, demo what is put on a board: each a file with a main.
 UNO_MAIN_frames := $(UNO)/firmware/uno/main.o
 UNO_MAIN_demo := $(UNO)/firmware/uno/demo.o

@@ -373,31 +373,48 @@ static void tile_place(tuile_t *t, uint32_t row, uint32_t column) {
     t->tile.colour = t->numbers ? t->numbers : t->working ? t->working : t->colours[t->next_buffer];
 }
 
-int tuile_next(tuile_t *t, tuile_tile_t *tile) {
-    if (t == NULL || tile == NULL) { return TUILE_ERROR_ARGUMENT; }
-    if (!t->in_frame) { return TUILE_ERROR_SEQUENCE; }
+/* 1 when there is another, 0 when the frame is complete. */
+static int tile_find(tuile_t *t, uint32_t *row, uint32_t *column) {
     for (;; t->next_tile += t->config.tile_step) {
-        const uint32_t row = t->next_tile / t->tile_columns, column = t->next_tile % t->tile_columns;
-        const uint32_t top = row * t->config.tile_height;
+        *row = t->next_tile / t->tile_columns;
+        *column = t->next_tile % t->tile_columns;
+        const uint32_t top = *row * t->config.tile_height;
         if (top >= t->config.row_end) { return 0; }
         if (top < t->config.row_first) { continue; }
-
-        tile_place(t, row, column);
-        const int error = pass_draw(t, row, column);
-        if (error) { return error; }
-        tile->x = (uint16_t)(t->tile.left >> t->samples);
-        tile->y = (uint16_t)(t->tile.top >> t->samples);
-        tile->width = (uint16_t)((t->tile.right - t->tile.left) >> t->samples);
-        tile->height = (uint16_t)((t->tile.bottom - t->tile.top) >> t->samples);
-        tile->bytes = t->colours[t->next_buffer];
-        tile->size_bytes = (uint32_t)wire_bytes(t->config.format, tile->width, tile->height);
-        if (TUILE_HAS(OVERLAY) && t->given.overlay) { overlay_tile(t); }
-        if (TUILE_HAS(RESOLVE) && t->working) { resolve_tile(t); }
-        t->next_buffer = (uint8_t)((t->next_buffer + 1) % t->config.buffers);
-        t->next_tile += t->config.tile_step;
-        t->stats.tiles++;
+        tile_place(t, *row, *column);
         return 1;
     }
+}
+
+int tuile_prepare(tuile_t *t) {
+    uint32_t row, column;
+    if (t == NULL) { return TUILE_ERROR_ARGUMENT; }
+    if (!t->in_frame) { return TUILE_ERROR_SEQUENCE; }
+    if (!tile_find(t, &row, &column)) { return 0; }
+    const int error = pass_prepare(t, row, column);
+    return error ? error : 1;
+}
+
+int tuile_next(tuile_t *t, tuile_tile_t *tile) {
+    uint32_t row, column;
+    if (t == NULL || tile == NULL) { return TUILE_ERROR_ARGUMENT; }
+    if (!t->in_frame) { return TUILE_ERROR_SEQUENCE; }
+    if (!tile_find(t, &row, &column)) { return 0; }
+
+    const int error = pass_draw(t, row, column);
+    if (error) { return error; }
+    tile->x = (uint16_t)(t->tile.left >> t->samples);
+    tile->y = (uint16_t)(t->tile.top >> t->samples);
+    tile->width = (uint16_t)((t->tile.right - t->tile.left) >> t->samples);
+    tile->height = (uint16_t)((t->tile.bottom - t->tile.top) >> t->samples);
+    tile->bytes = t->colours[t->next_buffer];
+    tile->size_bytes = (uint32_t)wire_bytes(t->config.format, tile->width, tile->height);
+    if (TUILE_HAS(OVERLAY) && t->given.overlay) { overlay_tile(t); }
+    if (TUILE_HAS(RESOLVE) && t->working) { resolve_tile(t); }
+    t->next_buffer = (uint8_t)((t->next_buffer + 1) % t->config.buffers);
+    t->next_tile += t->config.tile_step;
+    t->stats.tiles++;
+    return 1;
 }
 
 int tuile_seek(tuile_t *t, uint32_t tile_index) {

@@ -356,6 +356,9 @@ int face_bin_run(tuile_t *t, const frame_cluster_t *cluster, unsigned first, uns
 /* Draws the tile that t->tile describes, in a pass that is there or a new one. FRAME_OK or a negative error. */
 int pass_draw(tuile_t *t, uint32_t row, uint32_t column);
 
+/* Begins the pass that draws the tile, unless it has begun. */
+int pass_prepare(tuile_t *t, uint32_t row, uint32_t column);
+
 /* Keeps the record of how much of the block the pass took, room_bytes of the room between vertices and records among it. */
 void pass_measure(tuile_t *t, size_t room_bytes);
 

@@ -238,12 +238,14 @@ static int draw_immediate(tuile_t *t, uint32_t row, uint32_t column) {
     return result > 0 ? TUILE_ERROR_MEMORY : result;
 }
 
+int pass_prepare(tuile_t *t, uint32_t row, uint32_t column) {
+    return pass_covers(t, row, column) ? TUILE_OK : pass_begin(t, row, column);
+}
+
 int pass_draw(tuile_t *t, uint32_t row, uint32_t column) {
     for (;;) {
-        if (!pass_covers(t, row, column)) {
-            const int error = pass_begin(t, row, column);
-            if (error) { return error; }
-        }
+        const int error = pass_prepare(t, row, column);
+        if (error) { return error; }
         if (t->immediate) { return draw_immediate(t, row, column); }
         if (row < t->row || (row == t->row && t->row_ready && t->columned && column < *columns_next(t))) {
             bin_again(t, (uint16_t)row);
