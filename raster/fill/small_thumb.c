@@ -104,24 +104,18 @@ __attribute__((naked, noipa)) void small_thumb_far_depth(void) {
 }
 
 #define RECORD LINE("sub r1, r1, r0, lsl #3")
+#define RIGHT_RECORD LINE("sub r11, r11, r12, lsl #3")
 
-/* Slopes of the bend's side and of the other one in memory. */
-#define KEEP LINE("strd lr, r5, [sp, #BEND_SLOPE]") LINE("push {r0, r2, r3, r8, r11, r12}")
+/* From the first row on: r0 address, r2 first column, r8 the bend's side, r9 -rows * 2^16, r11 the other side. r1 and lr are at
+ * column 0 until they are moved. */
+#define FIRST LINE("14: pop {r0, r2, r8, r9, r11, pc}")
 
-/* From the first row on: r0 address, r2 first column, r8 the bend's side, r9 -rows * 2^16, r11 the other side, r6 and r7 ramp
- * and colour. r1 and lr are at column 0 until they are moved. */
-#define FIRST \
-    LINE("14: cmp r2, r4") \
-    LINE("pop {r0, r2, r8, r9, r11, r12}") \
-    LINE("ldrd r6, r7, [sp, #RAMP]") \
+/* r12: the column that r0, r1 and lr are of; r6 and r7 ramp and colour. */
+#define ROWS(ENTRY, LEFT, RIGHT, WHERE) \
+    LINE(ENTRY " ldrd r6, r7, [sp, #RAMP]") \
     LINE("mla r1, r3, r2, r1") \
     LINE("mla lr, r10, r2, lr") \
-    LINE("bge 51f")
-
-/* r12: the column that r0, r1 and lr are of. */
-#define ROWS(ENTRY, LEFT, RIGHT) \
-    LINE(ENTRY) \
-    LINE("asr r12, " RIGHT ", #20") \
+    LAST_##WHERE(RIGHT) \
     LINE("sub r5, r12, r2") \
     LINE("b 31f") \
     LINE("30: ldm sp, {r2, r4, r5}") \
@@ -131,15 +125,10 @@ __attribute__((naked, noipa)) void small_thumb_far_depth(void) {
     LINE("ldrd r2, r4, [sp, #DEPTH_DY]") \
     LINE("add r1, r1, r2") \
     LINE("add lr, lr, r4") \
-    LINE("asr r2, " LEFT ", #20") \
-    LINE("cmp r2, " RIGHT ", asr #20") \
-    LINE("bgt 35f") \
-    LINE("sub r4, r2, r12") \
-    LINE("asr r12, " RIGHT ", #20") \
+    MOVE_##WHERE(LEFT, RIGHT, "bgt") \
     LINE("mla r1, r3, r4, r1") \
     LINE("mla lr, r10, r4, lr") \
     LINE("add r0, r0, r4, lsl #1") \
-    LINE("sub r5, r12, r2") \
     LINE("31: ldrh r2, [r0]") \
     LINE("cmp r2, r1, lsr #16") \
     LINE("bhs 33f") \
@@ -192,8 +181,8 @@ __attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
         CORNERS
         DIFFERENCES(NEAR_DIFFERENCES)
         CENTRE(PUT_AWAY)
-        BENDS_LEFT(RECORD, KEEP)
-        BENDS_RIGHT(RECORD, KEEP)
+        BENDS_LEFT(RECORD, "51f", "15f", INSIDE)
+        BENDS_RIGHT(RECORD, "52f", "15f", INSIDE)
 
         AREA
         LIGHT("0x8000000")
@@ -201,7 +190,8 @@ __attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
         LINE("str r5, [sp, #KEPT + DEPTH_DY]")
         FIRST);
 
-    __asm__ volatile(ROWS("", "r8", "r11") ROWS("51:", "r11", "r8"));
+    __asm__ volatile(ROWS("51:", "r8", "r11", INSIDE) ROWS("52:", "r11", "r8", INSIDE)
+                     ROWS("53:", "r8", "r11", BESIDE) ROWS("54:", "r11", "r8", BESIDE));
 
     __asm__ volatile(
         ABOVE
@@ -210,13 +200,15 @@ __attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
         LINE("b 14b")
 
         /* another material, or nothing is known of the face */
-        LINE("80: ldr r5, [sp, #MATERIAL]")
-        LINE("cmp r6, r5")
+        LINE("80: ldr lr, [sp, #MATERIAL]")
+        LINE("cmp r6, lr")
         LINE("bne 90f")
+        LINE("adds r5, r5, #2")             /* SMALL_RUN_SHORT */
+        LINE("beq 85f")
         CORNERS
         DIFFERENCES(TRUE_DIFFERENCES)
         TESTS
-        LEAVE());
+        COLUMNS(RECORD, RIGHT_RECORD));
 }
 
 /* clang-format on */

@@ -5,14 +5,17 @@
 #include "../frame/frame.h"
 #include "small.h"
 
+enum { SMALL_RUN_SHORT = -2 };
+
 /* What the loop reads, and where it has come to. */
 typedef struct small_run {
     uint32_t limit; /* the loop ends at the record of this number, or at the end of the list */
     const uint8_t *arena_end;
     const vertex_t *vertices;
-    int32_t known;  /* the material, where faces are known to be short and inside the tile's columns and there is a ramp; else -1 */
-    int32_t top;    /* 16 * the tile's first row + 8 */
-    int32_t height; /* rows */
+    int32_t known;         /* the material, where faces are known to be short and inside the tile's columns and there is a ramp;
+                            * SMALL_RUN_SHORT, where they are known to be short; else -1 */
+    int32_t top;           /* 16 * the tile's first row + 8 */
+    int32_t height;        /* rows */
     uint16_t *depth;       /* of the pixel in the tile's first row and in column 0 of the window */
     int32_t stride;        /* bytes */
     uint32_t record_bytes; /* with light: not read, those of record_t */
@@ -26,8 +29,8 @@ typedef struct small_run {
 } small_run_t;
 
 /* Draws faces from run->place.list on, with light at the corners or flat, until it meets one that it leaves to the caller: behind
- * the limit, no triangle, of another material, whose colour in the ramp is 0, not short, or, in Thumb-2,
- * not inside the tile's columns. */
+ * the limit, no triangle, of another material, whose colour in the ramp is 0, or not short. Hands on what reaches beyond the tile
+ * as columns_hand_on of visibility/columns.h does. */
 void small_thumb_gouraud(small_run_t *run);
 void small_thumb_flat(small_run_t *run);
 

@@ -11,23 +11,18 @@
 /* clang-format off */
 
 #define RECORD LINE("ldr r3, [sp, #16 + RECORD_BYTES]") LINE("mls r1, r0, r3, r1")
+#define RIGHT_RECORD LINE("ldr r10, [sp, #RECORD_BYTES]") LINE("mls r11, r12, r10, r11")
 
-/* The slope of the bend's side remains in lr. */
-#define KEEP LINE("str r5, [sp, #OTHER_SLOPE]") LINE("push {r0, r2, r3, r8, r11, lr}")
+/* From the first row on: r0 address, r2 first column, r8 the bend's side, r9 -rows * 2^16, r11 the other side. r1 is at column 0
+ * until it is moved. */
+#define FIRST LINE("14: pop {r0, r2, r8, r9, r11, pc}")
 
-/* From the first row on: r0 address, r2 first column, r8 the bend's side, r9 -rows * 2^16, r11 the other side, r6 and r7 value
- * and colour. r1 is at column 0 until it is moved. */
-#define FIRST \
-    LINE("14: cmp r2, r4") \
-    LINE("pop {r0, r2, r8, r9, r11, lr}") \
+/* r12: the column that r0 and r1 are of; r6 and r7 value and colour; lr the slope of the bend's side. */
+#define ROWS(ENTRY, LEFT, RIGHT, WHERE) \
+    LINE(ENTRY " ldr lr, [sp, #BEND_SLOPE]") \
     LINE("ldrd r7, r6, [sp, #COLOUR]") \
     LINE("mla r1, r3, r2, r1") \
-    LINE("bge 51f")
-
-/* r12: the column that r0 and r1 are of. */
-#define ROWS(ENTRY, LEFT, RIGHT) \
-    LINE(ENTRY) \
-    LINE("asr r12, " RIGHT ", #20") \
+    LAST_##WHERE(RIGHT) \
     LINE("sub r5, r12, r2") \
     LINE("b 31f") \
     LINE("30: ldrd r2, r4, [sp, #OTHER_SLOPE]") /* and stride */ \
@@ -35,14 +30,9 @@
     LINE("add r11, r11, r2") \
     LINE("adds r0, r0, r4") \
     LINE("add r1, r1, r10") \
-    LINE("asr r2, " LEFT ", #20") \
-    LINE("cmp r2, " RIGHT ", asr #20") \
-    LINE("bgt 35f") \
-    LINE("sub r4, r2, r12") \
-    LINE("asr r12, " RIGHT ", #20") \
+    MOVE_##WHERE(LEFT, RIGHT, "bgt") \
     LINE("mla r1, r3, r4, r1") \
     LINE("add r0, r0, r4, lsl #1") \
-    LINE("sub r5, r12, r2") \
     LINE("31: ldrh r2, [r0]") \
     LINE("cmp r2, r1, lsr #16") \
     LINE("bhs 33f") \
@@ -95,14 +85,15 @@ __attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
         CORNERS
         DIFFERENCES(NEAR_DIFFERENCES)
         CENTRE(PUT_AWAY)
-        BENDS_LEFT(RECORD, KEEP)
-        BENDS_RIGHT(RECORD, KEEP)
+        BENDS_LEFT(RECORD, "51f", "15f", INSIDE)
+        BENDS_RIGHT(RECORD, "52f", "15f", INSIDE)
 
         AREA
         DEPTH("r10")
         FIRST);
 
-    __asm__ volatile(ROWS("", "r8", "r11") ROWS("51:", "r11", "r8"));
+    __asm__ volatile(ROWS("51:", "r8", "r11", INSIDE) ROWS("52:", "r11", "r8", INSIDE)
+                     ROWS("53:", "r8", "r11", BESIDE) ROWS("54:", "r11", "r8", BESIDE));
 
     __asm__ volatile(
         ABOVE
@@ -112,8 +103,8 @@ __attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
         LINE("mov r10, r5")
         LINE("b 14b")
 
-        LINE("80: ldr r5, [sp, #MATERIAL]")
-        LINE("cmp r6, r5")
+        LINE("80: ldr lr, [sp, #MATERIAL]")
+        LINE("cmp r6, lr")
         LINE("bne 90f")
         LINE("ldr r6, [sp, #GIVEN]")
         LINE("cbz r7, 81f")                 /* no ramp */
@@ -122,10 +113,12 @@ __attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
         LINE("cmp r6, #0")
         LINE("beq 90f")
         LINE("81: str r6, [sp, #VALUE]")
+        LINE("adds r5, r5, #2")             /* SMALL_RUN_SHORT */
+        LINE("beq 85f")
         CORNERS
         DIFFERENCES(TRUE_DIFFERENCES)
         TESTS
-        LEAVE());
+        COLUMNS(RECORD, RIGHT_RECORD));
 }
 
 /* clang-format on */

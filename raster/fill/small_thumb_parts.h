@@ -31,12 +31,15 @@
     LINE(".equ END, 100") \
     LINE(".equ MATERIAL, 104")   /* and left, width */ \
     LINE(".equ GIVEN, 116") \
-    LINE(".equ CORNERS, 120")    /* r0 ... r7 before sides are made */ \
-    LINE(".equ FRAME, 156") \
+    LINE(".equ RIGHT, 120")      /* as small_run_t has it */ \
+    LINE(".equ CORNERS, 124")    /* r0 ... r7 before sides are made */ \
+    LINE(".equ BOUNDS, 156")     /* columns of the tile from the corner's: the first, the last; of faces that touch others */ \
+    LINE(".equ HANDED, 164")     /* the face went to the right there; or NULL */ \
+    LINE(".equ FRAME, 172") \
     LINE(".equ KEPT, 24")        /* below that while gradients are made: the first row that is not empty */ \
     LINE(".equ RUN_LIST, 60")
 _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, material) == 44 && offsetof(small_run_t, place) == 60 &&
-                   sizeof(small_place_t) == 12,
+                   offsetof(small_run_t, right) == 72 && SMALL_RUN_SHORT == -2,
                "offsets in the assembly");
 _Static_assert(sizeof(record_t) == 8, "numbers in the assembly");
 
@@ -69,9 +72,9 @@ _Static_assert(sizeof(record_t) == 8, "numbers in the assembly");
     LINE("add lr, sp, #LIMIT") \
     LINE("ldm r12!, {r1-r11}") \
     LINE("stm lr, {r1-r11}") \
-    LINE("ldm r12, {r1-r7}")            /* material, left, width, given, list, end, count */ \
+    LINE("ldm r12, {r1-r8}")            /* material, left, width, given, list, end, count, right */ \
     LINE("add lr, sp, #MATERIAL") \
-    LINE("stm lr, {r1-r4}") \
+    LINE("stm lr, {r1-r4, r8}") \
     LINE("strd r7, r6, [sp, #COUNT]") \
     LINE("mov r0, r5") \
     LINE("b 11f")
@@ -89,22 +92,38 @@ _Static_assert(sizeof(record_t) == 8, "numbers in the assembly");
 /* Is it short, and inside the tile's columns? */
 #define TESTS \
     SHORT \
-    LINE("ldrd r10, r11, [sp, #MATERIAL + 4]") \
-    LINE("sub r9, r0, r10") \
-    LINE("add r10, r9, r6") \
-    LINE("add r12, r9, r7") \
-    LINE("cmp r9, r11") \
-    LINE("it lo") \
-    LINE("cmplo r10, r11") \
-    LINE("it lo") \
-    LINE("cmplo r12, r11") \
-    LINE("blo 12b")
+    TEST_INSIDE("MATERIAL + 4", "12b") \
+    LINE("b 82f")
+
+/* ROWS: where the face's rows begin. GRADIENTS: AREA. */
+#define KEEP(ROWS, GRADIENTS) \
+    LINE("strd lr, r5, [sp, #BEND_SLOPE]") \
+    LINE("adr r12, " ROWS " + 1")           /* Thumb */ \
+    LINE("push {r0, r2, r3, r8, r11, r12}") \
+    LINE("b " GRADIENTS)
+
+/* Faces that are known to be short; and those that touch columns beside the tile's. RIGHT_RECORD: TO_THE_RIGHT. */
+#define COLUMNS(RECORD, RIGHT_RECORD) \
+    LINE("85:") \
+    CORNERS \
+    DIFFERENCES(NEAR_DIFFERENCES) \
+    TEST_INSIDE("MATERIAL + 4", "12b") \
+    LINE("82:") \
+    TO_THE_RIGHT(RIGHT_RECORD) \
+    CENTRE(PUT_BOUNDS("MATERIAL + 4", "2") PUT_AWAY) \
+    BENDS_LEFT(RECORD, "53b", "15b", BESIDE) \
+    BENDS_RIGHT(RECORD, "54b", "15b", BESIDE) \
+    ABOVE \
+    LEAVE(LINE("ldr r4, [sp, #RIGHT]"), "{r1, r2, r3, r4}")
 
 /* Left sides are held as the first column, right ones as the last. */
-#define BENDS_LEFT(RECORD, KEEP) \
-    EDGES("r6", "r2", "r7", "r4", "r3", "r11", LINE("sub r11, r11, #0x100000"), , RECORD, "r3", "r11", "bgt", KEEP)
-#define BENDS_RIGHT(RECORD, KEEP) \
-    LINE("40:") EDGES("r7", "r4", "r6", "r2", "r3", "r11", , LINE("sub r0, r0, #0x100000"), RECORD, "r11", "r3", "bgt", KEEP)
+#define BENDS_LEFT(RECORD, ROWS, GRADIENTS, WHERE) \
+    EDGES("r6", "r2", "r7", "r4", "r3", "r11", LINE("sub r11, r11, #0x100000"), , RECORD, "r3", "r11", "bgt", \
+          KEEP(ROWS, GRADIENTS), WHERE)
+#define BENDS_RIGHT(RECORD, ROWS, GRADIENTS, WHERE) \
+    LINE("40:") \
+    EDGES("r7", "r4", "r6", "r2", "r3", "r11", , LINE("sub r0, r0, #0x100000"), RECORD, "r11", "r3", "bgt", \
+          KEEP(ROWS, GRADIENTS), WHERE)
 #define PUT_AWAY LINE("add lr, sp, #CORNERS") LINE("stm lr, {r0-r7}")
 
 /* clang-format on */

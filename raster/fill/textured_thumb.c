@@ -104,9 +104,9 @@ _Static_assert(offsetof(record_surface_t, source) == 8 && sizeof(source_slot_t) 
 #define RECORD LINE("ldr r3, [sp, #16 + RECORD_BYTES]") LINE("str r2, [sp, #16 + END_BEFORE]") LINE("mls r1, r0, r3, r1")
 
 /* r3 left side, r11 right one. A bit in r8 tells which of them has the bend. */
-#define KEEP_LEFT LINE("strd lr, r5, [sp, #LEFT_SLOPE]") LINE("push {r0, r2, r3, r8, r11, r12}")
+#define KEEP_LEFT LINE("strd lr, r5, [sp, #LEFT_SLOPE]") LINE("push {r0, r2, r3, r8, r11, r12}") LINE("b 15f")
 #define KEEP_RIGHT \
-    LINE("strd r5, lr, [sp, #LEFT_SLOPE]") LINE("orr r8, r8, #0x8000") LINE("push {r0, r2, r3, r8, r11, r12}")
+    LINE("strd r5, lr, [sp, #LEFT_SLOPE]") LINE("orr r8, r8, #0x8000") LINE("push {r0, r2, r3, r8, r11, r12}") LINE("b 15f")
 
 /* To s1 in r5, t1 r11, s2 lr, t2 r12; r8 area; r0 texels and r1 pixels, of the level? Is the face near enough, and affine? */
 #define ASKED \
@@ -362,9 +362,9 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("18: add r9, sp, #CORNERS + 4")
         LINE("stm r9, {r1-r7, r11, r12, lr}")
         CENTRE(PUT_AWAY)
-        EDGES("r6", "r2", "r7", "r4", "r3", "r11", , , RECORD, "r3", "r11", "bge", KEEP_LEFT)
+        EDGES("r6", "r2", "r7", "r4", "r3", "r11", , , RECORD, "r3", "r11", "bge", KEEP_LEFT, INSIDE)
         LINE("40:")
-        EDGES("r7", "r4", "r6", "r2", "r11", "r3", , , RECORD, "r3", "r11", "bge", KEEP_RIGHT)
+        EDGES("r7", "r4", "r6", "r2", "r11", "r3", , , RECORD, "r3", "r11", "bge", KEEP_RIGHT, INSIDE)
 
         ASKED
         MAPPED
@@ -463,7 +463,8 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("strh r3, [r2]")
         LINE("strh r4, [r1]")               /* its next */
         LINE("str r2, [sp, #END]")
-        LEAVE(LINE("ldr r1, [sp, #SOURCE]") LINE("str r1, [r0, #32]")));
+        LINE("b 90f")
+        LEAVE(LINE("ldr r1, [sp, #SOURCE]") LINE("str r1, [r0, #32]"), "{r1, r2, r3}"));
 }
 
 /* clang-format on */

@@ -1,6 +1,6 @@
 /* Parts that all loops in assembly over small triangles share, with a texture and without: fill/small_thumb.c and
  * fill/textured_thumb.c. Each loop has a frame of its own at the stack pointer, in which it names what parts ask for: RUN, LIST,
- * COUNT, LIGHT_DY, FRAME, RUN_LIST, and KEPT, the bytes that are pushed below it while gradients are made.
+ * COUNT, LIGHT_DY, BOUNDS, RIGHT, HANDED, FRAME, RUN_LIST, and KEPT, the bytes that are pushed below it while gradients are made.
  */
 #ifndef TUILE_FILL_THUMB_H
 #define TUILE_FILL_THUMB_H
@@ -69,8 +69,9 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
  * rows left of the tile. Then the first row that is not empty: r8 rows, BEND and lr the bend's side and its slope, OTHER and r5 the
  * other one's, r9 and r10 its to_y and the address of its depth. LAST_OTHER, LAST_BEND: of that side, where it is not held as a
  * first column. RECORD: address of record r0, from r1, the end of the list being in r2. LEFT, RIGHT: sides. EMPTY: a row, that
- * comparison of theirs being true. KEEP: puts away what rows want. */
-#define EDGES(XM, YM, XL, YL, BEND, OTHER, LAST_OTHER, LAST_BEND, RECORD, LEFT, RIGHT, EMPTY, KEEP) \
+ * comparison of theirs being true. KEEP: puts away what rows want, and goes on. WHERE: INSIDE, or BESIDE where the triangle may
+ * touch columns beside the tile's. */
+#define EDGES(XM, YM, XL, YL, BEND, OTHER, LAST_OTHER, LAST_BEND, RECORD, LEFT, RIGHT, EMPTY, KEEP, WHERE) \
     LINE("lsls r5, " XL ", #20") \
     LINE("sdiv r5, r5, " YL) \
     LINE("mul " OTHER ", r5, r9") \
@@ -101,12 +102,12 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("subs " YM ", " YM ", " XL) \
     LINE("strd " YM ", " XL ", [sp, #NEXT_X]") \
     LINE("add r8, r12, r8, lsl #16")        /* -rows * 2^16, with those below the bend added */ \
-    LINE("22: asr r2, " LEFT ", #20") \
-    LINE("cmp r2, " RIGHT ", asr #20") \
+    LINE("22:") \
+    BOUNDS_##WHERE \
+    COLUMN_##WHERE(LEFT, RIGHT) \
     LINE(EMPTY " 26f") \
     LINE("23: add r0, r10, r2, lsl #1") \
     KEEP \
-    LINE("b 15f") \
     LINE("24: subs r8, r8, r12")            /* none below the bend */ \
     LINE("lsls r8, r8, #16") \
     LINE("b 22b") \
@@ -124,8 +125,7 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("add " OTHER ", " OTHER ", r5") \
     LINE("add r9, r9, #16") \
     LINE("add r10, r10, r0") \
-    LINE("asr r2, " LEFT ", #20") \
-    LINE("cmp r2, " RIGHT ", asr #20") \
+    COLUMN_##WHERE(LEFT, RIGHT) \
     LINE(EMPTY " 26b") \
     LINE("b 23b") \
     LINE("28: beq 10b") \
@@ -134,6 +134,7 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("ldrd " BEND ", lr, [sp, #NEXT_X]") \
     LINE("b 27b") \
     LINE("20: sub r12, r12, r8")            /* it reaches below the tile */ \
+    BELOW_##WHERE \
     LINE("push {r0, r1, r2, r3}") \
     LINE("ldr r0, [sp, #16 + LIST]") \
     LINE("ldr r1, [sp, #16 + LIMIT + 4]") \
@@ -145,6 +146,103 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("str r1, [sp, #16 + END]") \
     LINE("pop {r0, r1, r2, r3}") \
     LINE("b 21b")
+
+#define BELOW_INSIDE
+#define BOUNDS_INSIDE
+#define COLUMN_INSIDE(LEFT, RIGHT) LINE("asr r2, " LEFT ", #20") LINE("cmp r2, " RIGHT ", asr #20")
+
+/* One that went to the right is not among those that reach below. */
+#define BELOW_BESIDE LINE("ldr r1, [sp, #HANDED]") LINE("cmp r1, #0") LINE("bne 21b")
+#define BOUNDS_BESIDE LINE("ldrd r6, r7, [sp, #BOUNDS]")
+#define COLUMN_BESIDE(LEFT, RIGHT) \
+    LINE("asr r2, " LEFT ", #20") \
+    LINE("cmp r2, r6") \
+    LINE("it lt") \
+    LINE("movlt r2, r6") \
+    LINE("asr r12, " RIGHT ", #20") \
+    LINE("cmp r12, r7") \
+    LINE("it gt") \
+    LINE("movgt r12, r7") \
+    LINE("cmp r2, r12")
+
+/* The last column of the first row, to r12. */
+#define LAST_INSIDE(RIGHT) LINE("asr r12, " RIGHT ", #20")
+#define LAST_BESIDE(RIGHT) \
+    LINE("ldr r4, [sp, #BOUNDS + 4]") \
+    LINE("asr r12, " RIGHT ", #20") \
+    LINE("cmp r12, r4") \
+    LINE("it gt") \
+    LINE("movgt r12, r4")
+
+/* Where a row is not empty: r2 its first column, r4 that less r12, r12 its last column, r5 that less r2. */
+#define MOVE_INSIDE(LEFT, RIGHT, EMPTY) \
+    LINE("asr r2, " LEFT ", #20") \
+    LINE("cmp r2, " RIGHT ", asr #20") \
+    LINE(EMPTY " 35f") \
+    LINE("sub r4, r2, r12") \
+    LINE("asr r12, " RIGHT ", #20") \
+    LINE("sub r5, r12, r2")
+#define MOVE_BESIDE(LEFT, RIGHT, EMPTY) \
+    LINE("ldrd r4, r5, [sp, #BOUNDS]") \
+    LINE("asr r2, " LEFT ", #20") \
+    LINE("cmp r2, r4") \
+    LINE("it lt") \
+    LINE("movlt r2, r4") \
+    LINE("asr r4, " RIGHT ", #20") \
+    LINE("cmp r4, r5") \
+    LINE("it lt") \
+    LINE("movlt r5, r4") \
+    LINE("cmp r2, r5") \
+    LINE(EMPTY " 35f") \
+    LINE("sub r4, r2, r12") \
+    LINE("mov r12, r5") \
+    LINE("subs r5, r5, r2")
+
+/* r9, r10, r12: corners' x less the tile's left, r11: its width. LEFT: where these are. Does the face touch no column beside? */
+#define TEST_INSIDE(LEFT, TO) \
+    LINE("ldrd r10, r11, [sp, #" LEFT "]") \
+    LINE("sub r9, r0, r10") \
+    LINE("add r10, r9, r6") \
+    LINE("add r12, r9, r7") \
+    LINE("cmp r9, r11") \
+    LINE("it lo") \
+    LINE("cmplo r10, r11") \
+    LINE("it lo") \
+    LINE("cmplo r12, r11") \
+    LINE("blo " TO)
+
+/* If it reaches beyond the right edge and there is a further column, it goes there: columns_hand_on. HANDED: the place that its
+ * number was put, or NULL. RECORD: the address of record r12, from r11, in there. */
+#define TO_THE_RIGHT(RECORD) \
+    LINE("cmp r9, r11") \
+    LINE("it lt") \
+    LINE("cmplt r10, r11") \
+    LINE("it lt") \
+    LINE("cmplt r12, r11") \
+    LINE("ite lt") \
+    LINE("movlt r9, #0") \
+    LINE("ldrge r9, [sp, #RIGHT]") \
+    LINE("str r9, [sp, #HANDED]") \
+    LINE("cmp r9, #0") \
+    LINE("beq 83f") \
+    LINE("ldr r12, [sp, #LIST]") \
+    LINE("ldr r11, [sp, #LIMIT + 4]") \
+    LINE("strh r12, [r9]") \
+    RECORD \
+    LINE("mov r12, #0") \
+    LINE("strh r12, [r11]")                 /* its next */ \
+    LINE("str r11, [sp, #RIGHT]") \
+    LINE("83:")
+
+/* The tile's first column and its last one, which is LESS than width / 16 behind that, from the column of the corner, -lr. */
+#define PUT_BOUNDS(LEFT, LESS) \
+    LINE("ldrd r11, r12, [sp, #" LEFT "]") \
+    LINE("add r11, r11, #7") \
+    LINE("add r11, lr, r11, asr #4") \
+    LINE("add r12, r11, r12, asr #4") \
+    LINE("sub r12, r12, #" LESS) \
+    LINE("strd r11, r12, [sp, #BOUNDS]")
+
 /* r11, r12: differences of depth. */
 #define DEPTHS \
     LINE("lsr r10, r1, #8") \
@@ -222,9 +320,7 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
 /* It begins above the tile: r9 is to_y. */
 #define ABOVE \
     LINE("70: movs r8, #0") \
-    LINE("b 13b") \
-    LINE("89: str r0, [sp, #LIST]") \
-    LINE("b 90f")
+    LINE("b 13b")
 
 /* Is it short? r6, r2, r7, r4 as above; r9 and r10 are free. */
 #define SHORT \
@@ -243,14 +339,16 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("cmp r9, #512") \
     LINE("bhs 90f")
 
-/* Back to C, the face at LIST undrawn. BEFORE: the run, r0, has more than its place. */
-#define LEAVE(BEFORE) \
+/* Back to C, the face at LIST undrawn, or r0 behind the limit. BEFORE: what else the run, r0, wants to know; REGISTERS: what is put
+ * into it from its place on, which r1, r2 and r3 are. */
+#define LEAVE(BEFORE, REGISTERS) \
+    LINE("89: str r0, [sp, #LIST]") \
     LINE("90: ldr r0, [sp, #RUN]") \
     BEFORE \
     LINE("ldr r1, [sp, #LIST]") \
     LINE("ldrd r3, r2, [sp, #COUNT]") \
     LINE("adds r0, r0, #RUN_LIST") \
-    LINE("stm r0, {r1, r2, r3}") \
+    LINE("stm r0, " REGISTERS) \
     LINE("add sp, sp, #FRAME") \
     LINE("pop {r4-r11, pc}")
 

@@ -10,7 +10,7 @@ TUILE_INLINE small_run_t smalls_run(tuile_t *t, walk_t *walk, uint32_t limit, co
     return (small_run_t){.limit = limit,
                          .arena_end = t->arena_end,
                          .vertices = t->vertices,
-                         .known = -1,
+                         .known = t->tile_columns > 1 ? SMALL_RUN_SHORT : -1, /* columns.h has no others */
                          .top = 16 * (int32_t)tile->top + 8,
                          .height = (int32_t)(tile->bottom - tile->top),
                          .depth = tile->depth - tile->first,
@@ -32,33 +32,25 @@ TUILE_INLINE void smalls_run_draw(small_run_t *run, small_kind_t kind) {
     }
 }
 
-/* Flat, a face whose colour is not in the ramp: into the ramp with it, or drawn alone. False: it is not drawn. */
-static inline bool smalls_given(tuile_t *t, small_run_t *run, const record_t *record) {
+/* Draws the next face with the given colour. False: it is not short. */
+static TUILE_NOINLINE bool smalls_alone(small_run_t *run) {
     const uint16_t *const ramp = run->ramp;
-    const uint32_t number = run->place.list - 1u, limit = run->limit;
+    const uint32_t limit = run->limit, list = run->place.list;
     const int32_t known = run->known;
-    run->given = frame_value(t, record, number);
-    if (ramp && ramp[record->light]) { return true; }
     run->ramp = NULL;
-    run->known = -1;
-    run->limit = number + 1u;
+    if (known >= 0) { run->known = -1; }
+    run->limit = list;
     small_thumb_flat(run);
     run->ramp = ramp;
     run->known = known;
     run->limit = limit;
-    return run->place.list != number + 1u;
+    return run->place.list != list;
 }
 
-/* A face that the assembly leaves alone, of the run's material. False: it is not small. */
-static inline bool smalls_beside(tuile_t *t, walk_t *walk, small_run_t *run, const record_t *record, const small_tile_t *tile,
-                                 small_kind_t kind) {
-    const vertex_t *v0 = t->vertices + record->v0, *v1 = v0 + record->d1, *v2 = v0 + record->d2;
-    const small_paint_t paint = {.value = (uint16_t)run->given, .ramp = run->ramp};
-    small_face_t face;
-    if (!small_open(&face, v0, v1, v2, tile, 0)) { return false; }
-    const bool reaches = small_fill_clamped(&face, v0, v1, v2, tile, kind, kind == SMALL_GOURAUD, record->light, &paint);
-    smalls_place_pass(t, walk, &run->place, &run->right, reaches);
-    return true;
+/* Flat, a face whose colour is not in the ramp: into the ramp with it, or drawn alone. False: it is not drawn. */
+static inline bool smalls_given(tuile_t *t, small_run_t *run, const record_t *record) {
+    run->given = frame_value(t, record, run->place.list - 1u);
+    return (run->ramp && run->ramp[record->light]) || smalls_alone(run);
 }
 
 /* kind: SMALL_FLAT or SMALL_GOURAUD. */
@@ -74,15 +66,11 @@ static inline void smalls_thumb(tuile_t *t, walk_t *walk, uint32_t limit, small_
         if (record->material != run.material) {
             run.material = record->material;
             run.ramp = kind == SMALL_GOURAUD ? frame_ramp(t, record->material) : frame_flat_ramp(t, record->material);
-            run.known = known && run.ramp ? run.material : -1;
+            if (known) { run.known = run.ramp ? run.material : -1; }
             continue;
         }
-        if (kind == SMALL_FLAT) {
-            const bool missing = run.ramp == NULL || run.ramp[record->light] == 0;
-            if (missing && smalls_given(t, &run, record)) { continue; }
-            if (!missing) { run.given = run.ramp[record->light]; }
-        }
-        if (!smalls_beside(t, walk, &run, record, &tile, kind)) { break; }
+        /* not short, or a colour is missing */
+        if (kind != SMALL_FLAT || (run.ramp && run.ramp[record->light]) || !smalls_given(t, &run, record)) { break; }
     }
     smalls_place_end(t, walk, &run.place, run.right);
 }

@@ -88,6 +88,20 @@ bool faces_inside(const vertex_t *v) {
     return true;
 }
 
+bool faces_further(void) { return t.tile.left + t.config.tile_width < t.tile_columns * t.config.tile_width; }
+
+void faces_count_on(faces_on_t *on, const vertex_t *v) {
+    bool right = false, below = false;
+    for (int i = 0; i < 3; i++) {
+        right = right || (faces_further() && edge_row(v[i].x) > t.tile.right);
+        below = below || edge_row(v[i].y) > t.tile.bottom;
+    }
+    if (t.tile_columns == 1) { return; }
+    on->right += right;
+    on->below += below && !right;
+    on->both += below && right;
+}
+
 record_t *faces_random_record(random_source_t *random, uint32_t number, uint16_t next, bool small, int polygon_one_in) {
     vertex_t *v = &faces_vertices[3 * number];
     record_t *record = frame_record(&t, number);

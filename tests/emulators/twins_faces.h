@@ -35,4 +35,15 @@ bool faces_short(const vertex_t *v);
 /* It touches no column beside the tile. */
 bool faces_inside(const vertex_t *v);
 
+/* There is a column to the right of the tile. */
+bool faces_further(void);
+
+/* Faces of lists in columns that are handed on: to the right, below, and those of the former that reach below, too. */
+typedef struct faces_on {
+    uint32_t right, below, both;
+} faces_on_t;
+
+/* Counts a face, by its corners. */
+void faces_count_on(faces_on_t *on, const vertex_t *v);
+
 #endif
