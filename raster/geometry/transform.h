@@ -54,7 +54,7 @@ typedef struct transform_run { /* geometry/vertex_thumb1.c */
     transform_run_row_y_t y;
     transform_run_row_t w;
     const void *at_x_row;
-    uint32_t normalise, one;
+    uint32_t zeros;
     int32_t minus_y, at_x;
     uint32_t shift, r;
     int32_t minus_x;

@@ -1,10 +1,9 @@
-/* 162 instructions a vertex with light, where gcc 12 takes 286, 144 without. What the loop is made of does not fit in registers:
+/* 161 instructions a vertex with light, where gcc 12 takes 286, 143 without. What the loop is made of does not fit in registers:
  * they are loaded in the order of transform_run_t (transform.h), from one of whose parts an address that is loaded along with them
  * leads to the next; what is kept for later is stored where a later load finds it.
  *
  * Rows. An entry is high * 2^15 + low, |low| <= 2^14, so that three products of low and what t leaves below 2^15 are less than
- * 2^31, and the sum is coarse * 2, with a bit more: right to 31 bits, which is what a coarse value has (transform_row_t) and the 32
- * less one that W keeps beside its leading one.
+ * 2^31, and the sum is coarse * 2, with a bit more: right to 31 bits, which is what a coarse value has (transform_row_t), and W.
  *
  * Reciprocals (fixed_reciprocal of divide.h). floor((2^32 - 1) / d) for 2^15 <= d < 2^16, d the upper half of w, is at most one
  * less than a line over 128 numbers d, the chord of 2^32 / d. With rest = 2^32 - 1 - quotient * d, what the long
@@ -26,8 +25,8 @@
 
 _Static_assert(offsetof(transform_run_t, light) == 4 && offsetof(transform_run_t, normals) == 16 &&
                    offsetof(transform_run_t, x) == 20 && offsetof(transform_run_t, y) == 52 && offsetof(transform_run_t, w) == 88 &&
-                   offsetof(transform_run_t, at_x_row) == 120 && offsetof(transform_run_t, minus_y) == 132 &&
-                   offsetof(transform_run_t, lights) == 156,
+                   offsetof(transform_run_t, at_x_row) == 120 && offsetof(transform_run_t, minus_y) == 128 &&
+                   offsetof(transform_run_t, lights) == 152,
                "the order of the assembly");
 _Static_assert(VERTEX_ANY_OUTSIDE == 1 && VERTEX_ANY_BEYOND == 2 && LIGHT_MIN == 2 && LIGHT_MAX == 253 &&
                    VERTEX_OUTSIDE == INT16_MIN,
@@ -101,12 +100,10 @@ static const uint32_t lines[256][2] = {LINES64(0), LINES64(64), LINES64(128), LI
     "sxth r2, r2\n" \
     "sxth r3, r3\n" \
     ROW("ldmia r0!, {r6, r7}\n") \
-    "ldmia r0, {r0, r6, r7}\n" \
-    "lsls r5, r6\n" /* the leading one falls out, and is put back: any W has it that way */ \
-    "bcc 40b\n" \
-    "41: lsrs r5, r5, #1\n" \
-    "adds r5, r7\n" \
-    "lsrs r6, r5, #16\n" \
+    "ldmia r0, {r0, r6}\n" \
+    "lsls r5, r6\n" \
+    "bpl 40b\n" \
+    "41: lsrs r6, r5, #16\n" \
     "lsrs r4, r5, #23\n" \
     "lsls r4, r4, #3\n" \
     "add r4, r9\n" \
@@ -156,8 +153,8 @@ static const uint32_t lines[256][2] = {LINES64(0), LINES64(64), LINES64(128), LI
     "31:\n" \
     BEYOND
 
-/* A W without the leading one: of the second octave, where the cluster has one. The next vertex is then the run's last, so that what
- * is changed here for this one is put back before another. */
+/* A W whose leading one is not at the top: of the second octave, where the cluster has one. The next vertex is then the run's last,
+ * so that what is changed here for this one is put back before another. Any W has a leading one, as in geometry/vertex.c. */
 #define LOWER \
     "40: ldr r4, %[second]\n" \
     "cmp r4, #0\n" \
@@ -173,7 +170,10 @@ static const uint32_t lines[256][2] = {LINES64(0), LINES64(64), LINES64(128), LI
     "str r4, [r6, %[depth_shift]]\n" \
     "ldr r4, [r6, %[at]]\n" \
     "str r4, [r6, %[end]]\n" \
-    "44: b 41f\n"
+    "44: movs r4, #1\n" \
+    "lsls r4, r4, #31\n" \
+    "orrs r5, r4\n" \
+    "b 41f\n"
 
 #define RESTORE \
     "42: ldr r3, %[last]\n" \
@@ -350,7 +350,6 @@ void vertex_thumb_make(transform_t *transform) {
                                        .x = run_row(&transform->x),
                                        .y = run_row_y(&transform->y),
                                        .w = run_row(&transform->w),
-                                       .one = 0x80000000u,
                                        .minus_y = -transform->region_y,
                                        .minus_x = transform->region_x < 0 ? 0 : -transform->region_x};
 }
@@ -364,7 +363,7 @@ unsigned vertex_thumb(transform_t *transform, const int16_t *positions, const in
     run->lights = normals ? (const void *)run : &run->w;
     run->region = &transform->region_x;
     run->normals = (uintptr_t)normals - (uintptr_t)positions / 2;
-    run->normalise = octave->zeros + 1;
+    run->zeros = octave->zeros;
     run->shift = octave->shift;
     run->depth_shift = octave->depth_shift;
     run->end = positions + (size_t)3 * count;

@@ -7,12 +7,13 @@
 #include "../fixed.h"
 #include "../tuile.h"
 
-/* mantissa * 2^exponent, with 2^61 <= |mantissa| < 2^62, or 0. Exponents stay within +-2^14 by far in all that is done here. */
 #if FIXED_BY_HALVES && defined(__GNUC__)
 #define WIDE_BY_WORDS __attribute__((packed, aligned(4))) /* gcc calls memcpy in Thumb-1 for structures whose alignment is 8 */
 #else
 #define WIDE_BY_WORDS
 #endif
+
+/* mantissa * 2^exponent, with 2^61 <= |mantissa| < 2^62, or 0. Exponents stay within +-2^14 by far in all that is done here. */
 typedef struct WIDE_BY_WORDS wide {
     int64_t mantissa;
     int32_t exponent;
