@@ -166,8 +166,20 @@ static void events_come_with_the_tile_that_they_happen_in(void **state) {
         check_events(&events, none);
         assert_int_equal(tuile_begin(renderer, &scene.scene), 0);
         for (unsigned i = 0; i < 3; i++) {
+            const bool first = frame == 1 && i == 0;
+            predict_events_t prepared = {{0}};
+            if (frame == 1) {
+                assert_int_equal(tuile_prepare(renderer), 1);
+                prepared = predict_meter_take(&meter);
+                assert_int_equal(prepared.count[PREDICT_VERTEX], first ? 4 : 0);
+                assert_int_equal(prepared.count[PREDICT_FACE_BINNED], first ? 1 : 0);
+                assert_int_equal(prepared.count[PREDICT_TILE_SAMPLE] + prepared.count[PREDICT_POLYGON_FRAGMENT], 0);
+            }
             assert_int_equal(tuile_next(renderer, &tile), 1);
             events = predict_meter_take(&meter);
+            for (unsigned k = 0; k < PREDICT_EVENT_COUNT; k++) {
+                events.count[k] += prepared.count[k];
+            }
             check_events(&events, expected[i]);
         }
         events = predict_meter_take(&meter);

@@ -206,6 +206,40 @@ static void test_a_fault_of_the_first_of_two_holds_the_second_back(void **state)
     }
 }
 
+static int refuse_data(void *context, const uint8_t *bytes, size_t size_bytes) {
+    (void)context, (void)bytes, (void)size_bytes;
+    return TUILE_HAL_GONE;
+}
+
+static void test_a_queue_that_is_refused_leaves_no_buffer(void **state) {
+    static const uint8_t row[480];
+    board_t board;
+
+    (void)state;
+    open_rows(&board, &(sim_bus_config_t){.queues = true}, 2);
+    assert_int_equal(tuile_display_queue(&board.display, row, 480), 0);
+    board.bus.bus.data = refuse_data;
+    assert_int_equal(tuile_display_queue(&board.display, row, 480), TUILE_HAL_GONE);
+    assert_int_equal(board.display.in_flight, 0);
+    board_close(&board);
+}
+
+/* Of a write of three chunks two are in flight when it returns; the next waits for the first of them. */
+static void test_chunks_are_queued_as_well(void **state) {
+    static const uint8_t rows[1440];
+    board_t board;
+
+    (void)state;
+    open_rows(&board, &(sim_bus_config_t){.queues = true, .max_chunk_bytes = 480}, 6);
+    assert_int_equal(tuile_display_write(&board.display, rows, sizeof rows), 0);
+    assert_int_equal(board.bus.flying, 2);
+    assert_int_equal(tuile_display_queue(&board.display, rows, sizeof rows), 0);
+    assert_int_equal(board.bus.flying, 2);
+    assert_int_equal(tuile_display_present(&board.display), 0);
+    board_check_clean(&board);
+    board_close(&board);
+}
+
 static void test_a_queue_keeps_the_rules_of_a_write(void **state) {
     static const uint8_t rows[960];
     board_t board;
@@ -344,6 +378,8 @@ int main(void) {
         cmocka_unit_test(test_two_buffers_are_in_flight_where_the_bus_queues),
         cmocka_unit_test(test_a_write_waits_where_there_is_a_queue_and_a_queue_where_there_is_none),
         cmocka_unit_test(test_a_fault_of_the_first_of_two_holds_the_second_back),
+        cmocka_unit_test(test_a_queue_that_is_refused_leaves_no_buffer),
+        cmocka_unit_test(test_chunks_are_queued_as_well),
         cmocka_unit_test(test_a_queue_keeps_the_rules_of_a_write),
         cmocka_unit_test(test_the_wire_does_not_rest_between_two_that_are_queued),
         cmocka_unit_test(test_time_on_the_wire),
