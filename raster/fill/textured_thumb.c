@@ -11,7 +11,7 @@
  * that one number rounds both: its bit 5 is half a step of blue and of green, its bit 16 of red, above all of green.
  *
  * Sides come first, and nothing of the texture is asked for before some centre is covered. So a face that is left to C may have
- * been put behind those that reach below: then it is taken away there.
+ * been put behind those that reach below, or to the right: then it is taken away there.
  *
  * The map is made at the first centre that is covered, (x, y) sixteenths from the corner. There steps times x and y, modulo 2^32,
  * come to what they do in whole numbers, since the face is less than 2^15 / 256 texels across, though either product may be larger.
@@ -67,13 +67,20 @@
     LINE(".equ END_BEFORE, 256")      /* the last face went behind it */ \
     LINE(".equ MATCH, 260")           /* the source if faces are known to be short and inside; else -1 */ \
     LINE(".equ DRAW, 264")            /* ROWS of textures with a palette, or without */ \
-    LINE(".equ FRAME, 268") \
+    LINE(".equ DRAW_INSIDE, 268")     /* that is this one but for faces that touch columns beside the tile's */ \
+    LINE(".equ DRAW_BESIDE, 272") \
+    LINE(".equ BOUNDS, 276")          /* of such: the tile's first column, from the corner's, and that behind its last */ \
+    LINE(".equ RIGHT, 284")           /* and is_short */ \
+    LINE(".equ HANDED, 292")          /* the face went to the right there; or NULL; of such faces */ \
+    LINE(".equ FRAME, 300") \
+    LINE(".equ RUN_RIGHT, 508") \
     LINE(".equ KEPT, 24")             /* below that while gradients are made: the first row that is not empty */
 _Static_assert(offsetof(textured_run_t, palette) == 16 && offsetof(textured_run_t, source) == 32 &&
                    offsetof(textured_run_t, across) == 64 && offsetof(textured_run_t, pixels_up) == 76 &&
                    offsetof(textured_run_t, s_inside) == 112 && offsetof(textured_run_t, instance) == 116 &&
                    offsetof(textured_run_t, left) == 124 && offsetof(textured_run_t, place) == 132 &&
-                   offsetof(textured_run_t, levels) == 144 && sizeof(textured_run_level_t) == 40 &&
+                   offsetof(textured_run_t, levels) == 144 && offsetof(textured_run_t, right) == 508 &&
+                   offsetof(textured_run_t, is_short) == 512 && sizeof(textured_run_level_t) == 40 &&
                    offsetof(textured_run_level_t, lower) == 4 && offsetof(textured_run_level_t, from_corner) == 28,
                "offsets in the assembly");
 _Static_assert(offsetof(record_surface_t, source) == 8 && sizeof(source_slot_t) == 2 * sizeof(vertex_t) &&
@@ -101,12 +108,21 @@ _Static_assert(offsetof(record_surface_t, source) == 8 && sizeof(source_slot_t) 
     LINE("ldrd r4, r5, [r10]")
 
 #define PUT_AWAY LINE("str r0, [sp, #CORNERS]")
+#define RIGHT_RECORD LINE("ldr r10, [sp, #RECORD_BYTES]") LINE("mls r11, r12, r10, r11")
 #define RECORD LINE("ldr r3, [sp, #16 + RECORD_BYTES]") LINE("str r2, [sp, #16 + END_BEFORE]") LINE("mls r1, r0, r3, r1")
 
 /* r3 left side, r11 right one. A bit in r8 tells which of them has the bend. */
-#define KEEP_LEFT LINE("strd lr, r5, [sp, #LEFT_SLOPE]") LINE("push {r0, r2, r3, r8, r11, r12}") LINE("b 15f")
+#define KEEP_LEFT LINE("strd lr, r5, [sp, #LEFT_SLOPE]") LINE("push {r0, r2, r3, r8, r11, r12}")
 #define KEEP_RIGHT \
-    LINE("strd r5, lr, [sp, #LEFT_SLOPE]") LINE("orr r8, r8, #0x8000") LINE("push {r0, r2, r3, r8, r11, r12}") LINE("b 15f")
+    LINE("strd r5, lr, [sp, #LEFT_SLOPE]") LINE("orr r8, r8, #0x8000") LINE("push {r0, r2, r3, r8, r11, r12}")
+#define TO_INSIDE LINE("b 15f")
+#define TO_BESIDE LINE("ldr r1, [sp, #KEPT + DRAW_BESIDE]") LINE("str r1, [sp, #KEPT + DRAW]") LINE("b 15b")
+
+/* With what a face has of them. */
+#define BENDS(WHERE) \
+    EDGES("r6", "r2", "r7", "r4", "r3", "r11", , , RECORD, "r3", "r11", "bge", KEEP_LEFT TO_##WHERE, WHERE) \
+    LINE("40:") \
+    EDGES("r7", "r4", "r6", "r2", "r11", "r3", , , RECORD, "r3", "r11", "bge", KEEP_RIGHT TO_##WHERE, WHERE)
 
 /* To s1 in r5, t1 r11, s2 lr, t2 r12; r8 area; r0 texels and r1 pixels, of the level? Is the face near enough, and affine? */
 #define ASKED \
@@ -228,8 +244,18 @@ _Static_assert(offsetof(record_surface_t, source) == 8 && sizeof(source_slot_t) 
     LINE("mla lr, r10, r2, lr") \
     LINE("ldr pc, [sp, #DRAW]")
 
-/* r12: the column that r0, r1, lr and r6 are of, behind the row's last. TEXEL: from an index in r2 to a colour there. */
-#define ROWS(ENTRY, TEXEL) \
+/* What the first row of a face that touches columns beside the tile's wants else. */
+#define ENTRY_INSIDE(ENTRY)
+#define ENTRY_BESIDE(ENTRY) LINE(ENTRY) LAST_BESIDE("r11") LINE("subs r5, r12, r2") LINE("b 38f")
+
+/* Behind its last row. */
+#define LAST_ROW_INSIDE LINE("beq 10b")
+#define LAST_ROW_BESIDE LINE("beq 39f")
+
+/* r12: the column that r0, r1, lr and r6 are of, behind the row's last. TEXEL: from an index in r2 to a colour there. ENTRY: of
+ * those inside, and BESIDE of the others. */
+#define ROWS(ENTRY, BESIDE, TEXEL, WHERE) \
+    ENTRY_##WHERE(BESIDE) \
     LINE("30: ldm sp, {r2, r4, r5}") \
     LINE("31: add r8, r8, r2") \
     LINE("add r11, r11, r4") \
@@ -239,16 +265,11 @@ _Static_assert(offsetof(record_surface_t, source) == 8 && sizeof(source_slot_t) 
     LINE("add r1, r1, r2") \
     LINE("add lr, lr, r4") \
     LINE("adds r6, r6, r5") \
-    LINE("asr r2, r8, #20") \
-    LINE("cmp r2, r11, asr #20") \
-    LINE("bge 35f") \
-    LINE("sub r4, r2, r12") \
-    LINE("asr r12, r11, #20") \
+    MOVE_##WHERE("r8", "r11", "bge") \
     LINE("mla r1, r3, r4, r1") \
     LINE("mla lr, r10, r4, lr") \
     LINE("mla r6, r7, r4, r6") \
     LINE("add r0, r0, r4, lsl #1") \
-    LINE("sub r5, r12, r2") \
     LINE(ENTRY " add r2, sp, #ROW") \
     LINE("stm r2!, {r8, r9, r11, r12}") \
     LINE("ldm r2, {r8, r9, r11, r12}") \
@@ -284,7 +305,7 @@ _Static_assert(offsetof(record_surface_t, source) == 8 && sizeof(source_slot_t) 
     LINE("35: adds r9, r9, #0x10000") \
     LINE("bmi 30b") \
     LINE("36: lsls r9, r9, #17")            /* carry: the bend is on the right */ \
-    LINE("beq 10b") \
+    LAST_ROW_##WHERE \
     LINE("rsb r9, r9, #0") \
     LINE("asr r9, r9, #1") \
     LINE("bcs 37f") \
@@ -309,6 +330,8 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("push {r4-r11, lr}")
         LINE("sub sp, sp, #FRAME")
         LINE("str r0, [sp, #RUN]")
+        LINE("ldrd r1, r2, [r0, #RUN_RIGHT]")
+        LINE("strd r1, r2, [sp, #RIGHT]")
         LINE("movw r1, #0xffc0")
         LINE("movt r1, #0xf")
         LINE("str r1, [sp, #START]")
@@ -319,11 +342,13 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("ldm r0!, {r1-r8}")
         LINE("stm r11!, {r1-r8}")
         LINE("str r8, [sp, #STRIDE]")
-        LINE("ite ne")
-        LINE("adrne r9, 52f")
-        LINE("adreq r9, 54f")
-        LINE("add r9, r9, #1")              /* Thumb */
+        LINE("ittee ne")
+        LINE("adrne r9, 52f + 1")           /* Thumb */
+        LINE("adrne r10, 53f + 1")
+        LINE("adreq r9, 54f + 1")
+        LINE("adreq r10, 55f + 1")
         LINE("str r9, [sp, #DRAW]")
+        LINE("strd r9, r10, [sp, #DRAW_INSIDE]")
         LINE("cmp r2, #0")                  /* known */
         LINE("ite ne")
         LINE("movne r9, r1")                /* source */
@@ -359,12 +384,10 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("17: ldrd r1, lr, [sp, #VERTICES]")
         CORNERS
         DIFFERENCES(NEAR_DIFFERENCES)
-        LINE("18: add r9, sp, #CORNERS + 4")
+        LINE("add r9, sp, #CORNERS + 4")
         LINE("stm r9, {r1-r7, r11, r12, lr}")
         CENTRE(PUT_AWAY)
-        EDGES("r6", "r2", "r7", "r4", "r3", "r11", , , RECORD, "r3", "r11", "bge", KEEP_LEFT, INSIDE)
-        LINE("40:")
-        EDGES("r7", "r4", "r6", "r2", "r11", "r3", , , RECORD, "r3", "r11", "bge", KEEP_RIGHT, INSIDE)
+        BENDS(INSIDE)
 
         ASKED
         MAPPED
@@ -376,7 +399,11 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("str r5, [sp, #KEPT + DEPTH_DY]")
         FIRST);
 
-    __asm__ volatile(ROWS("52:", TEXEL_OF_PALETTE) ROWS("54:", TEXEL_OF_COLOURS));
+    __asm__ volatile(ROWS("52:", , TEXEL_OF_PALETTE, INSIDE) ROWS("54:", , TEXEL_OF_COLOURS, INSIDE));
+    __asm__ volatile(ROWS("38:", "53:", TEXEL_OF_PALETTE, BESIDE) ROWS("38:", "55:", TEXEL_OF_COLOURS, BESIDE)
+        LINE("39: ldr r2, [sp, #DRAW_INSIDE]")
+        LINE("str r2, [sp, #DRAW]")
+        LINE("b 10b"));
 
     /* What is seldom. */
     __asm__ volatile(
@@ -410,22 +437,24 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("b 17b")
 
         /* is it short, and inside the tile's columns? */
-        LINE("80: ldrd r1, lr, [sp, #VERTICES]")
+        LINE("80: ldr r6, [sp, #RIGHT + 4]") /* is_short */
+        LINE("ldrd r1, lr, [sp, #VERTICES]")
+        LINE("cmp r6, #0")
+        LINE("bne 85f")
         CORNERS
         DIFFERENCES(TRUE_DIFFERENCES)
         SHORT
-        LINE("ldrd r9, r10, [sp, #LEFT]")
-        LINE("sub r9, r0, r9")
-        LINE("cmp r9, r10")
-        LINE("bhs 90f")
-        LINE("add r9, r9, r6")
-        LINE("cmp r9, r10")
-        LINE("bhs 90f")
-        LINE("subs r9, r9, r6")
-        LINE("add r9, r9, r7")
-        LINE("cmp r9, r10")
-        LINE("blo 18b")
-        LINE("b 90f")
+        LINE("b 84f")
+        LINE("85:")
+        CORNERS
+        DIFFERENCES(NEAR_DIFFERENCES)
+        LINE("84: add r9, sp, #CORNERS + 4")
+        LINE("stm r9, {r1-r7, r11, r12, lr}")
+        TEST_INSIDE("LEFT", "12b")
+        TO_THE_RIGHT(RIGHT_RECORD)
+        CENTRE(PUT_BOUNDS("LEFT", "1") PUT_AWAY)
+        BENDS(BESIDE)
+        ABOVE
 
         /* another level: the first that is not too fine, if the run has it and it is not too coarse */
         LINE("91: ldr r3, [sp, #KEPT + RUN]")
@@ -450,21 +479,30 @@ __attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
         LINE("pop {r2, r4, r5, r6, r7, r11, r12}")
         LINE("b 16b")
 
-        /* left to C, and not yet put behind those that reach below */
+        /* left to C, and put behind no others yet */
         LINE("92: add sp, sp, #KEPT")
         LINE("ldrd r0, r4, [sp, #LIST]")
         LINE("ldrd r1, r3, [sp, #LIMIT + 4]")
-        LINE("ldr r2, [sp, #END]")
+        LINE("ldr r2, [sp, #RIGHT]")
         LINE("mls r1, r0, r3, r1")
+        LINE("movs r3, #0")
+        LINE("cmp r1, r2")
+        LINE("bne 94f")
+        LINE("ldr r2, [sp, #HANDED]")
+        LINE("strh r3, [r2]")
+        LINE("strh r4, [r1]")               /* its next */
+        LINE("str r2, [sp, #RIGHT]")
+        LINE("b 90f")
+        LINE("94: ldr r2, [sp, #END]")
         LINE("cmp r1, r2")
         LINE("bne 90f")
         LINE("ldr r2, [sp, #END_BEFORE]")
-        LINE("movs r3, #0")
         LINE("strh r3, [r2]")
-        LINE("strh r4, [r1]")               /* its next */
+        LINE("strh r4, [r1]")
         LINE("str r2, [sp, #END]")
         LINE("b 90f")
-        LEAVE(LINE("ldr r1, [sp, #SOURCE]") LINE("str r1, [r0, #32]"), "{r1, r2, r3}"));
+        LEAVE(LINE("ldr r1, [sp, #SOURCE]") LINE("str r1, [r0, #32]") LINE("ldr r1, [sp, #RIGHT]") LINE("str r1, [r0, #RUN_RIGHT]"),
+              "{r1, r2, r3}"));
 }
 
 /* clang-format on */

@@ -46,7 +46,8 @@ typedef struct textured_run {
     textured_run_level_t levels[TEXTURED_RUN_LEVELS + 1]; /* from number `first_level` on, one behind the last wanted at most; such
                                                            * as are not made have lower 31, always 0; upper ends at 31 */
     uint32_t first_level;
-    uint16_t *right; /* where the number of the next face handed to the next column is put; NULL: there is none */
+    uint16_t *right;   /* where the number of the next face handed to the next column is put; NULL: there is none */
+    uint32_t is_short; /* not 0: all faces are known to be short */
 } textured_run_t;
 
 /* What rounds red, blue and, by its low half, green. The pixels of a row are counted in the bits from 22 on, less 1. */
@@ -54,9 +55,9 @@ typedef struct textured_run {
 
 /* Draws faces from run->place.list on with light at the corners, until it meets one that it leaves to the caller: behind the limit,
  * no triangle, of another source, or a level that is none of those at hand, not short, or one that textured_map_make looks at
- * twice. Another source of the same instance and material, without colours and attributes, goes. Thumb-2: not inside the tile's
- * columns either; but any face inside that covers no centre goes, which counts as drawn. Thumb-1: those that are not inside are
- * handed on. */
+ * twice. Another source of the same instance and material, without colours and attributes, goes. What
+ * reaches beyond the tile is handed on as columns_hand_on of visibility/columns.h does. Thumb-2: any face that covers no centre of
+ * the tile goes, which counts as drawn. */
 void textured_thumb(textured_run_t *run);
 
 #endif

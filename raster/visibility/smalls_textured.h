@@ -24,7 +24,8 @@ TUILE_INLINE textured_run_t smalls_textured_run(const tuile_t *t, walk_t *walk, 
                             .left = tile->left,
                             .width = tile->width,
                             .place = smalls_place(walk),
-                            .right = smalls_place_right(t, walk)};
+                            .right = smalls_place_right(t, walk),
+                            .is_short = t->tile_columns > 1}; /* columns.h has no others */
 }
 
 /* What sources of one instance share. */

@@ -110,7 +110,7 @@ enum { ROUNDS = 8000 };
 typedef struct world {
     faces_pixels_t pixels;
     _Alignas(8) record_surface_t records[FACES]; /* the first one last */
-    record_surface_t above;                      /* the last one of the list of those below */
+    record_surface_t above, beside;              /* the last ones of the lists of those below, and to the right */
     walk_t walk;
     uint32_t faces_setup, left_out;
     bool any;
@@ -139,6 +139,10 @@ static void random_list(random_source_t *random) {
         world.above.record.next = RECORD_NONE;
         world.walk.left = (list_end_t){FACES + 1, &world.above.record.next};
     }
+    if (faces_further() && random_one_in(random, 2)) {
+        world.beside.record.next = RECORD_NONE;
+        world.walk.right = (list_end_t){FACES + 2, &world.beside.record.next};
+    }
 }
 
 /* Is (x, y) right of the side from a to b, or on it where that is a left or an upper one? Corners are counter-clockwise, y down. */
@@ -164,13 +168,18 @@ static void walk_past(uint32_t number) {
     const vertex_t *v0 = t.vertices + record->v0, *v1 = v0 + record->d1, *v2 = v0 + record->d2;
     const vertex_t corners[3] = {*v0, *v1, *v2};
     world.walk.list = record->next;
-    if (!frame_record_is_triangle(record) || !faces_short(corners) || !faces_inside(corners) || covers(v0, v1, v2)) {
+    if (!frame_record_is_triangle(record) || !faces_short(corners) || covers(v0, v1, v2)) {
         world.left_out += number + 1u; /* it is drawn in another way */
         return;
     }
     t.stats.faces_setup++;
     t.textured_any = true;
-    if (edge_row(v1->y > v2->y ? v1->y : v2->y) > t.tile.bottom) { list_append(&t, &world.walk.left, number); }
+    if (t.tile_columns > 1) {
+        columns_hand_on(&t, number, (uint32_t)t.tile.left / t.config.tile_width, t.tile.bottom, &world.walk.right,
+                        &world.walk.left);
+    } else if (edge_row(v1->y > v2->y ? v1->y : v2->y) > t.tile.bottom) {
+        list_append(&t, &world.walk.left, number);
+    }
 }
 
 static void draw(void (*smalls)(tuile_t *t, walk_t *walk, uint32_t limit), uint32_t limit) {
@@ -191,14 +200,26 @@ static bool equal(void) {
            twins_equal("walk", &assembly.walk, &world.walk, sizeof world.walk) &&
            twins_equal("records", assembly.records, world.records, sizeof world.records) &&
            twins_equal("record above", &assembly.above, &world.above, sizeof world.above) &&
+           twins_equal("record beside", &assembly.beside, &world.beside, sizeof world.beside) &&
            twins_equal("counter", &assembly.faces_setup, &world.faces_setup, sizeof world.faces_setup) &&
            twins_equal("left out", &assembly.left_out, &world.left_out, sizeof world.left_out) &&
            twins_equal("any", &assembly.any, &world.any, sizeof world.any);
 }
 
+/* Of the faces that are done with. */
+static void count_on(faces_on_t *on) {
+    for (uint32_t list = before.walk.list; list != world.walk.list;) {
+        const record_t *record = &before.records[FACES - list].record;
+        const vertex_t v[3] = {t.vertices[record->v0], t.vertices[record->v0 + record->d1], t.vertices[record->v0 + record->d2]};
+        faces_count_on(on, v);
+        list = record->next;
+    }
+}
+
 bool twins_test(void) {
     random_source_t random = random_seed(0x5a11);
     uint32_t faces = 0, by_assembly = 0, all = 0, below = 0;
+    faces_on_t on = {0};
     t.arena_end = (uint8_t *)(world.records + FACES);
     t.record_bytes = sizeof(record_surface_t);
     t.vertices = vertices.vertices;
@@ -230,12 +251,15 @@ bool twins_test(void) {
                        t.tile.bottom, NULL);
             return false;
         }
+        count_on(&on);
         faces += world.faces_setup;
         by_assembly += drawn;
         all += world.walk.list == RECORD_NONE;
         below += world.walk.left.first != before.walk.left.first || world.walk.left.end != before.walk.left.end;
     }
     twins_tell("small textured triangles: drawn ", (int32_t)faces, ", in assembly ", (int32_t)by_assembly, ", lists to their end ",
-               (int32_t)all, ", with faces that reach below ", (int32_t)below, NULL);
-    return by_assembly > 2 * ROUNDS && faces - by_assembly > ROUNDS / 8 && all > ROUNDS / 8 && below > ROUNDS / 8;
+               (int32_t)all, ", with faces that reach below ", (int32_t)below, "; faces in columns: to the right ",
+               (int32_t)on.right, ", below ", (int32_t)on.below, ", both ", (int32_t)on.both, NULL);
+    return by_assembly > 2 * ROUNDS && faces - by_assembly > ROUNDS / 8 && all > ROUNDS / 8 && below > ROUNDS / 8 &&
+           on.right > ROUNDS / 8 && on.below > ROUNDS / 8 && on.both > ROUNDS / 8;
 }
