@@ -364,6 +364,7 @@ static void test_the_wire_does_not_rest_between_two_that_are_queued(void **state
         assert_int_equal(tuile_display_present(&board.display), 0);
         assert_int_equal(board.bus.now_ns - before_ns, 1000000 + 8800 + 10 * 1966080 + (queues ? 1 : 10) * 3000);
         assert_int_equal(board.bus.counts.wire_ns, 8800 + 10 * 1966080);
+        assert_int_equal(board.bus.counts.gap_ns, (queues ? 1 : 10) * 3000);
         assert_int_equal(board.bus.counts.work_ns, 10000000);
         board_check_clean(&board);
         board_close(&board);
