@@ -200,11 +200,12 @@ __attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
         LINE("b 14b")
 
         /* another material, or nothing is known of the face */
-        LINE("80: ldr lr, [sp, #MATERIAL]")
-        LINE("cmp r6, lr")
-        LINE("bne 90f")
-        LINE("adds r5, r5, #2")             /* SMALL_RUN_SHORT */
+        LINE("80: eors r5, r5, r6")
+        LINE("cmp r5, #256")                /* SMALL_RUN_SHORT */
         LINE("beq 85f")
+        LINE("ldr r5, [sp, #MATERIAL]")
+        LINE("cmp r6, r5")
+        LINE("bne 90f")
         CORNERS
         DIFFERENCES(TRUE_DIFFERENCES)
         TESTS

@@ -5,15 +5,15 @@
 #include "../frame/frame.h"
 #include "small.h"
 
-enum { SMALL_RUN_SHORT = -2 };
+enum { SMALL_RUN_SHORT = 256 }; /* no material */
 
 /* What the loop reads, and where it has come to. */
 typedef struct small_run {
     uint32_t limit; /* the loop ends at the record of this number, or at the end of the list */
     const uint8_t *arena_end;
     const vertex_t *vertices;
-    int32_t known;         /* the material, where faces are known to be short and inside the tile's columns and there is a ramp;
-                            * SMALL_RUN_SHORT, where they are known to be short; else -1 */
+    int32_t known;         /* the material, where there is a ramp and faces are known to be short and inside the tile's columns;
+                            * SMALL_RUN_SHORT more, where there is one and they are known to be short; else -1 */
     int32_t top;           /* 16 * the tile's first row + 8 */
     int32_t height;        /* rows */
     uint16_t *depth;       /* of the pixel in the tile's first row and in column 0 of the window */

@@ -103,8 +103,11 @@ __attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
         LINE("mov r10, r5")
         LINE("b 14b")
 
-        LINE("80: ldr lr, [sp, #MATERIAL]")
-        LINE("cmp r6, lr")
+        LINE("80: eors r5, r5, r6")
+        LINE("cmp r5, #256")                /* SMALL_RUN_SHORT */
+        LINE("beq 83f")
+        LINE("ldr r5, [sp, #MATERIAL]")
+        LINE("cmp r6, r5")
         LINE("bne 90f")
         LINE("ldr r6, [sp, #GIVEN]")
         LINE("cbz r7, 81f")                 /* no ramp */
@@ -113,11 +116,14 @@ __attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
         LINE("cmp r6, #0")
         LINE("beq 90f")
         LINE("81: str r6, [sp, #VALUE]")
-        LINE("adds r5, r5, #2")             /* SMALL_RUN_SHORT */
-        LINE("beq 85f")
         CORNERS
         DIFFERENCES(TRUE_DIFFERENCES)
         TESTS
+        LINE("83: lsrs r6, r4, #24")
+        LINE("ldrh r6, [r7, r6, lsl #1]")
+        LINE("cmp r6, #0")
+        LINE("beq 90f")
+        LINE("str r6, [sp, #VALUE]")
         COLUMNS(RECORD, RIGHT_RECORD));
 }
 

@@ -39,7 +39,7 @@
     LINE(".equ KEPT, 24")        /* below that while gradients are made: the first row that is not empty */ \
     LINE(".equ RUN_LIST, 60")
 _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, material) == 44 && offsetof(small_run_t, place) == 60 &&
-                   offsetof(small_run_t, right) == 72 && SMALL_RUN_SHORT == -2,
+                   offsetof(small_run_t, right) == 72 && SMALL_RUN_SHORT == 256,
                "offsets in the assembly");
 _Static_assert(sizeof(record_t) == 8, "numbers in the assembly");
 

@@ -205,9 +205,8 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("add r10, r9, r6") \
     LINE("add r12, r9, r7") \
     LINE("cmp r9, r11") \
-    LINE("it lo") \
+    LINE("itt lo") \
     LINE("cmplo r10, r11") \
-    LINE("it lo") \
     LINE("cmplo r12, r11") \
     LINE("blo " TO)
 
@@ -215,9 +214,8 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
  * number was put, or NULL. RECORD: the address of record r12, from r11, in there. */
 #define TO_THE_RIGHT(RECORD) \
     LINE("cmp r9, r11") \
-    LINE("it lt") \
+    LINE("itt lt") \
     LINE("cmplt r10, r11") \
-    LINE("it lt") \
     LINE("cmplt r12, r11") \
     LINE("ite lt") \
     LINE("movlt r9, #0") \

@@ -10,7 +10,7 @@ TUILE_INLINE small_run_t smalls_run(tuile_t *t, walk_t *walk, uint32_t limit, co
     return (small_run_t){.limit = limit,
                          .arena_end = t->arena_end,
                          .vertices = t->vertices,
-                         .known = t->tile_columns > 1 ? SMALL_RUN_SHORT : -1, /* columns.h has no others */
+                         .known = -1,
                          .top = 16 * (int32_t)tile->top + 8,
                          .height = (int32_t)(tile->bottom - tile->top),
                          .depth = tile->depth - tile->first,
@@ -38,7 +38,7 @@ static TUILE_NOINLINE bool smalls_alone(small_run_t *run) {
     const uint32_t limit = run->limit, list = run->place.list;
     const int32_t known = run->known;
     run->ramp = NULL;
-    if (known >= 0) { run->known = -1; }
+    run->known = -1;
     run->limit = list;
     small_thumb_flat(run);
     run->ramp = ramp;
@@ -56,7 +56,8 @@ static inline bool smalls_given(tuile_t *t, small_run_t *run, const record_t *re
 /* kind: SMALL_FLAT or SMALL_GOURAUD. */
 static inline void smalls_thumb(tuile_t *t, walk_t *walk, uint32_t limit, small_kind_t kind) {
     const small_tile_t tile = small_tile(&t->tile);
-    const bool known = t->tile_columns == 1 && t->small;
+    const bool known = t->tile_columns > 1 || t->small; /* columns.h has short ones only */
+    const int32_t beside = t->tile_columns > 1 ? SMALL_RUN_SHORT : 0;
     small_run_t run = smalls_run(t, walk, limit, &tile);
     for (;;) {
         if (run.ramp) { smalls_run_draw(&run, kind); }
@@ -66,7 +67,7 @@ static inline void smalls_thumb(tuile_t *t, walk_t *walk, uint32_t limit, small_
         if (record->material != run.material) {
             run.material = record->material;
             run.ramp = kind == SMALL_GOURAUD ? frame_ramp(t, record->material) : frame_flat_ramp(t, record->material);
-            if (known) { run.known = run.ramp ? run.material : -1; }
+            run.known = known && run.ramp ? run.material + beside : -1;
             continue;
         }
         /* not short, or a colour is missing */
