@@ -7,6 +7,9 @@
  * depth, light and address: a row moves them from the last pixel of the one above to its own first. Light and depth at the first
  * centre are summed with carry into a second word, of which four bits matter (small_at).
  *
+ * Triangles that touch columns beside the tile's have sides and rows of their own, which are clamped, and share the gradients: where
+ * a face's rows begin is pushed with its first row, and the last of the gradients pops it into the program counter.
+ *
  * Instructions: ARMv7-M Architecture Reference Manual (DDI 0403), chapter A7.
  */
 #include "../tune.h"
