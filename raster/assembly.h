@@ -38,6 +38,9 @@
 #define ASSEMBLY_THUMB2 (TUILE_ASSEMBLY && ASSEMBLY_THUMB2_COULD)
 #define ASSEMBLY_THUMB1 (TUILE_ASSEMBLY && ASSEMBLY_THUMB1_COULD)
 
+/* Of a function that is all assembly. At a word, since adr counts from words: with -Os gcc sets functions at half words. */
+#define ASSEMBLY_FUNCTION __attribute__((naked, noipa, aligned(4)))
+
 /* By loop. */
 #define ASSEMBLY_VERTICES (ASSEMBLY_THUMB2 || ASSEMBLY_THUMB1)
 #define ASSEMBLY_FACES (ASSEMBLY_THUMB2 || ASSEMBLY_THUMB1)

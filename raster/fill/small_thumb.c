@@ -56,7 +56,7 @@
     LINE("eor " N ", " N ", " SIGN) \
     LINE("eor " HIGH ", " HIGH ", " SIGN)
 
-__attribute__((naked, noipa)) void small_thumb_far_light(void) {
+ASSEMBLY_FUNCTION void small_thumb_far_light(void) {
     __asm__ volatile(
         LINE("push {r1, lr}")
         LINE("subs r3, r3, r1")
@@ -81,7 +81,7 @@ __attribute__((naked, noipa)) void small_thumb_far_light(void) {
         LINE("pop {r1, pc}"));
 }
 
-__attribute__((naked, noipa)) void small_thumb_far_depth(void) {
+ASSEMBLY_FUNCTION void small_thumb_far_depth(void) {
     __asm__ volatile(
         LINE("push {r1, r10, lr}")
         LINE("smull r3, r1, r12, r2")
@@ -163,7 +163,7 @@ __attribute__((naked, noipa)) void small_thumb_far_depth(void) {
     LINE("str r2, [sp, #BEND_SLOPE]") \
     LINE("b 30b")
 
-__attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
+ASSEMBLY_FUNCTION void small_thumb_gouraud(small_run_t *run) {
     (void)run;
     __asm__ volatile(
         ENTER

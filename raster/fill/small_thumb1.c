@@ -97,7 +97,7 @@ const uint8_t small_thumb1_shifts[512] = {
     ENDS
 
 /* r8 and r9 dx, r12 and lr depth and light in column 0, r3 the ramp, r4 from a pixel's depth to its colour. */
-__attribute__((naked, noipa)) void small_thumb_gouraud(small_run_t *run) {
+ASSEMBLY_FUNCTION void small_thumb_gouraud(small_run_t *run) {
     (void)run;
     __asm__ volatile(UNIFIED
         FRAME

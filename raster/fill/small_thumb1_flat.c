@@ -61,7 +61,7 @@
     ENDS
 
 /* r8 dx, r12 depth in column 0, lr its address, r3 the colour, r4 from a pixel's depth to its colour. */
-__attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
+ASSEMBLY_FUNCTION void small_thumb_flat(small_run_t *run) {
     (void)run;
     __asm__ volatile(UNIFIED
         FRAME

@@ -58,7 +58,7 @@
     LINE("ldrd r8, lr, [sp, #NEXT_X]") \
     LINE("b 30b")
 
-__attribute__((naked, noipa)) void small_thumb_flat(small_run_t *run) {
+ASSEMBLY_FUNCTION void small_thumb_flat(small_run_t *run) {
     (void)run;
     __asm__ volatile(
         ENTER

@@ -323,7 +323,7 @@ _Static_assert(offsetof(record_surface_t, source) == 8 && sizeof(source_slot_t) 
 
 #define TEXEL_OF_COLOURS LINE("ldrh r2, [r9, r2, lsl #1]")
 
-__attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
+ASSEMBLY_FUNCTION void textured_thumb(textured_run_t *run) {
     (void)run;
     __asm__ volatile(
         FRAME

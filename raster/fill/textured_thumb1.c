@@ -166,7 +166,7 @@ static __attribute__((noinline, used)) void textured_thumb_far(textured_far_t *f
     LINE("str r6, [sp, #SIDES + 12]") \
     LINE("b 31b")
 
-__attribute__((naked, noipa)) void textured_thumb(textured_run_t *run) {
+ASSEMBLY_FUNCTION void textured_thumb(textured_run_t *run) {
     (void)run;
     __asm__ volatile(
         UNIFIED
