@@ -1,20 +1,10 @@
 /* Events from a renderer's own figures, which it keeps while it draws, and from its trace, which is made apart from the pixels. */
-#include "../raster/frame/frame.h"
+#include "../raster/frame/textured.h"
 #include "predict.h"
 
 static void on_tile(void *context, unsigned left, unsigned top, unsigned right, unsigned bottom) {
     predict_meter_t *meter = context;
     meter->seen.count[PREDICT_TILE_SAMPLE] += (uint64_t)(right - left) * (bottom - top);
-}
-
-/* Deferred shading: faces with a texture may be drawn with it at once. */
-static bool has_texture(const tuile_t *t, const record_t *record) {
-    const record_surface_t *extra = (const record_surface_t *)(const void *)record;
-    const source_slot_t *source = (const source_slot_t *)(const void *)&t->vertices[extra->source];
-    const tuile_instance_t *instance = &t->scene->instances[source->instance];
-    const tuile_material_t material =
-        instance->materials ? instance->materials[record->material] : tuile_model_material(instance->model, record->material);
-    return material.texture < instance->model->texture_count;
 }
 
 static bool is_short(const tuile_t *t, const record_t *record) {
@@ -26,6 +16,20 @@ static bool is_short(const tuile_t *t, const record_t *record) {
         most = x[i] > most ? x[i] : most;
     }
     return most - least < SHORT_SIDE && bottom - a->y < SHORT_SIDE;
+}
+
+/* Deferred shading: is a short triangle drawn with its texture at once? As small_prepare of raster/visibility/rows.h has it. */
+static bool is_drawn_at_once(const tuile_t *t, const record_t *record) {
+    const record_surface_t *extra = (const record_surface_t *)(const void *)record;
+    const vertex_t *v0 = &t->vertices[record->v0], *v1 = v0 + record->d1, *v2 = v0 + record->d2;
+    const bool smooth = t->config.shade == TUILE_GOURAUD;
+    tuile_t copy = *t; /* what is remembered of the last source changes */
+    textured_map_t map;
+    if (!t->textured || t->pixel_kind != PIXEL_RGB565_BE || !textured_fits(&copy, record)) { return false; }
+    if (!smooth && (extra->green != record->light || extra->blue != record->light)) { return false; }
+    const textured_face_t face =
+        textured_face(&copy, record, v0, v1, v2, v1->x - v0->x, v1->y - v0->y, v2->x - v0->x, v2->y - v0->y);
+    return textured_map_make(&map, &copy.textured_last, &face, 8, 8);
 }
 
 enum { SMALL, LARGE, POLYGON };
@@ -40,7 +44,7 @@ static void on_face(void *context, uint32_t number, uint32_t id) {
     if (!frame_record_is_triangle(record)) {
         meter->kind = POLYGON;
     } else {
-        meter->kind = is_short(t, record) && (!frame_deferred(t) || has_texture(t, record)) ? SMALL : LARGE;
+        meter->kind = is_short(t, record) && (!frame_deferred(t) || is_drawn_at_once(t, record)) ? SMALL : LARGE;
     }
 }
 
