@@ -3,6 +3,7 @@
 #define TUILE_FILL_SMALL_THUMB1_H
 
 #include "small_thumb.h"
+#include "thumb1.h"
 
 #include <stddef.h>
 
@@ -31,10 +32,6 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
                "offsets in the assembly");
 
 /* clang-format off */
-
-#define LINE(text) text "\n"
-
-#define UNIFIED LINE(".syntax unified") /* which gcc does not take for Thumb-1 */
 
 /* At the stack pointer, bytes. A row loads what stands first, up to ROW; STRIDE is a loop's own. From CORNER0 to FAR_LIGHT_DX as
  * small_thumb1_far_t has it; from LIMIT to DEPTH, and from RECORD_BYTES to GIVEN, as small_run_t. */
@@ -98,13 +95,7 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
 
 /* The run into the frame, and the way back to C, the face at LIST undrawn. r0: the first face. */
 #define ENTER \
-    LINE("push {r4-r7, lr}") \
-    LINE("mov r4, r8") \
-    LINE("mov r5, r9") \
-    LINE("mov r6, r10") \
-    LINE("mov r7, r11") \
-    LINE("push {r4-r7}") \
-    LINE("sub sp, #FRAME") \
+    OPEN_FRAME \
     LINE("str r0, [sp, #RUN]") \
     LINE("ldr r1, [r0, #RUN_STRIDE]") \
     LINE("str r1, [sp, #STRIDE]") \
@@ -143,13 +134,7 @@ _Static_assert(offsetof(small_run_t, stride) == 28 && offsetof(small_run_t, reco
     LINE("add r7, sp, #LIST") \
     LINE("ldm r7!, {r1-r4}") \
     LINE("stm r0!, {r1-r4}") \
-    LINE("add sp, #FRAME") \
-    LINE("pop {r4-r7}") \
-    LINE("mov r8, r4") \
-    LINE("mov r9, r5") \
-    LINE("mov r10, r6") \
-    LINE("mov r11, r7") \
-    LINE("pop {r4-r7, pc}")
+    CLOSE_FRAME
 
 /* The next face: r0 number + 1, r2 address of the record, r5 vertices. ADDRESS: r0 times the size of a record. LIGHT: what flat
  * faces have of it. Those of another material, or of which nothing is known, are drawn by way of BESIDE. */

@@ -3,6 +3,7 @@
 #define TUILE_FILL_TEXTURED_THUMB1_PARTS_H
 
 #include "textured_thumb.h"
+#include "thumb1.h"
 
 #include <stddef.h>
 
@@ -34,11 +35,6 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
                "numbers in the assembly");
 
 /* clang-format off */
-
-#define LINE(text) text "\n"
-
-/* gcc takes what it is given for the older syntax here. */
-#define UNIFIED LINE(".syntax unified")
 
 /* At the stack pointer, bytes. */
 #define FRAME \
@@ -127,13 +123,7 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
 
 /* The run into the frame, and back to C, the face at LIST undrawn. r0: the first face. */
 #define ENTER \
-    LINE("push {r4-r7, lr}") \
-    LINE("mov r4, r8") \
-    LINE("mov r5, r9") \
-    LINE("mov r6, r10") \
-    LINE("mov r7, r11") \
-    LINE("push {r4-r7}") \
-    LINE("sub sp, #FRAME") \
+    OPEN_FRAME \
     LINE("str r0, [sp, #RUN]") \
     LINE("adr r1, 1f") \
     LINE("ldmia r1!, {r2-r4, r6}") \
@@ -199,13 +189,7 @@ _Static_assert(offsetof(record_t, v0) == 2 && offsetof(record_t, d1) == 4 && off
     LINE("str r4, [r0, r5]") \
     LINE("adds r0, #RUN_LIST") \
     LINE("stmia r0!, {r1, r2, r3}") \
-    LINE("add sp, #FRAME") \
-    LINE("pop {r4-r7}") \
-    LINE("mov r8, r4") \
-    LINE("mov r9, r5") \
-    LINE("mov r10, r6") \
-    LINE("mov r11, r7") \
-    LINE("pop {r4-r7, pc}") \
+    CLOSE_FRAME \
     LINE(".align 2") \
     LINE("1: .word divide_sides, divide_table, small_thumb1_shifts, 0xfffc0, 0x7fffffff, 0x20000, 0x10420, 0x1f800") \
     LINE("4: .word 73f, 75f, 74f, 76f")

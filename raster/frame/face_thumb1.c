@@ -278,18 +278,7 @@ static TUILE_NOINLINE void run_flat(tuile_t *t, const frame_cluster_t *cluster, 
 }
 
 bool face_thumb(tuile_t *t, const frame_cluster_t *cluster, unsigned count) {
-    if (t->config.method != TUILE_ZBUFFER) { return false; }
-    if (cluster->face_normals) {
-        if (t->record_bytes != sizeof(record_t) || t->transform.light_count > 1 || t->transform.two_sided) { return false; }
-        run_flat(t, cluster, count);
-    } else if (t->record_bytes == sizeof(record_t)) {
-        run_smooth(t, cluster, count);
-    } else if (t->numbers != NULL) {
-        run_surface(t, cluster, count);
-    } else {
-        return false;
-    }
-    return true;
+    return face_thumb_by(t, cluster, count, run_flat, run_smooth, run_surface);
 }
 
 #endif

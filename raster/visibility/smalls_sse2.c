@@ -25,7 +25,6 @@
 
 typedef int32_t __attribute__((vector_size(16))) sse2_signed_t;
 typedef long long __attribute__((vector_size(16))) sse2_signed_quads_t;
-typedef double __attribute__((vector_size(16))) sse2_doubles_t; /* is moved only */
 
 #define LONGS_BY(function, type, a, b) ((sse2_longs_t)__builtin_ia32_##function((type)(a), (type)(b)))
 /* a0 b0 + a1 b1, and so on, of words */
@@ -40,7 +39,7 @@ typedef double __attribute__((vector_size(16))) sse2_doubles_t; /* is moved only
 #define QUADS(a, b) LONGS_BY(punpcklqdq128, sse2_signed_quads_t, a, b)
 #define UPPER_QUADS(a, b) LONGS_BY(punpckhqdq128, sse2_signed_quads_t, a, b)
 /* the lower half of a, the upper one of b */
-#define HALVES(a, b) LONGS_BY(movsd, sse2_doubles_t, b, a)
+#define HALVES(a, b) ((sse2_longs_t)__builtin_shuffle((sse2_quads_t)(a), (sse2_quads_t)(b), (sse2_quads_t){0, 3}))
 /* the longs, or the lower four words, of these numbers, 2 bits each */
 #define LONGS_OF(a, order) ((sse2_longs_t)__builtin_ia32_pshufd((sse2_signed_t)(a), order))
 #define WORDS_OF(a, order) __builtin_ia32_pshuflw((sse2_words_t)(a), order)
